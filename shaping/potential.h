@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stride {
+
+/// What the potential compares: where knees and feet are relative to the pelvis origin, and how
+/// high the pelvis is. x forward, y up, axes of the ground, metres. A foot is the ankle (origin of
+/// talus) unless the file says "toe".
+struct Pose {
+  double pelvis_height_m = 0;
+  Eigen::Vector2d knee_r = Eigen::Vector2d::Zero(), foot_r = Eigen::Vector2d::Zero();
+  Eigen::Vector2d knee_l = Eigen::Vector2d::Zero(), foot_l = Eigen::Vector2d::Zero();
+
+  Pose mirrored() const;  // right ↔ left
+};
+
+/// The paper's three functions of the distance of one part (Sec. "Potential function"), bounded at
+/// d = 0 by ε: pf1 1/(|dx| + |dy| + ε), pf2 1/√(dx² + dy² + ε²), pf3 1/(dx² + dy² + ε²).
+enum class InverseDistance { pf1, pf2, pf3 };
+
+/// Which keyframe a pose is compared with: that of the moment, Φ(s, phase), or the nearest one,
+/// Φ(s) = max over them.
+enum class PotentialIndex { time, nearest };
+
+struct Keyframe {
+  double phase = 0;  // [0, 1)
+  Pose pose;
+  Pose sd;  // one standard deviation of each coordinate; NaN where it is not known
+};
+
+/// NAME.potential.json, format "stride-potential" version 1.
+struct Potential {
+  std::string source, source_sha256, model;
+  std::string foot = "ankle";            // "ankle" or "toe": which part is the foot of the paper
+  double period_s = 0, period_sd_s = 0;  // of the stride
+  double speed_m_s = 0;
+  double rms_px = 0, rms_m = 0;  // quality of the fit behind it
+  std::string verdict = "ok";
+  std::vector<Keyframe> keyframes;  // equally spaced in phase; eight a stride at the paper's rate
+
+  InverseDistance function = InverseDistance::pf3;
+  PotentialIndex index = PotentialIndex::time;
+  double epsilon_m = 0.05;
+  double weight = 1;
+
+  /// Φ(s, phase) ≥ 0: weight · the sum over pelvis height, two knees, two feet. Between keyframes
+  /// the target moves on a periodic cubic spline. `phase` (any real number, taken modulo 1) is not
+  /// used by the index `nearest`.
+  double operator()(const Pose& pose, double phase) const;
+
+  /// Phase after `time_s` from phase 0: the video's cadence.
+  double phase_at(double time_s) const;
+
+  /// The pose of the runner in the video at that phase.
+  Pose target(double phase) const;
+};
+
+/// F(s, s′) = γ Φ(s′) − Φ(s) (Ng, Harada, Russell 1999), with Φ(s′) = 0 where the episode truly
+/// ended (Grześ 2017); a time limit is not an end. γ is the agent's own, per decision.
+double shaping_reward(double phi, double phi_next, double gamma, bool terminated);
+
+std::string_view name(InverseDistance function);  // "pf1" …
+InverseDistance inverse_distance(std::string_view name);
+
+/// Errors name file, key, value and rule; a file of another version or with NaN is refused.
+Potential load_potential(const std::filesystem::path& file);
+void save(const Potential& potential, const std::filesystem::path& file);
+
+}  // namespace stride
