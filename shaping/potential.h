@@ -39,10 +39,10 @@ struct Potential {
   std::string source, source_sha256, model;
   std::string foot = "ankle";            // "ankle" or "toe": which part is the foot of the paper
   double period_s = 0, period_sd_s = 0;  // of the stride
-  double speed_m_s = 0;
-  double rms_px = 0, rms_m = 0;  // quality of the fit behind it
+  double speed_m_s = 0;                  // of the video's runner; NaN: not known
+  double rms_px = 0, rms_m = 0;          // quality of the fit behind it; NaN: not known
   std::string verdict = "ok";
-  std::vector<Keyframe> keyframes;  // equally spaced in phase; eight a stride at the paper's rate
+  std::vector<Keyframe> keyframes;  // phase k/n; eight a stride at the paper's rate
 
   InverseDistance function = InverseDistance::pf3;
   PotentialIndex index = PotentialIndex::time;
@@ -67,8 +67,14 @@ double shaping_reward(double phi, double phi_next, double gamma, bool terminated
 
 std::string_view name(InverseDistance function);  // "pf1" …
 InverseDistance inverse_distance(std::string_view name);
+std::string_view name(PotentialIndex index);  // "time", "nearest"
+PotentialIndex potential_index(std::string_view name);
 
-/// Errors name file, key, value and rule; a file of another version or with NaN is refused.
+/// Throws Error naming `origin` (a file), key, value and rule where a value breaks its rule.
+void check(const Potential& potential, const std::string& origin);
+
+/// NAME.potential.json (shaping/README.md has its keys). Errors name file, key, value and rule; a
+/// file of another version or with NaN is refused.
 Potential load_potential(const std::filesystem::path& file);
 void save(const Potential& potential, const std::filesystem::path& file);
 

@@ -1,0 +1,192 @@
+// NAME.potential.json: reading, writing and the rules of its values.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "extract/error.h"
+#include "extract/file.h"
+#include "shaping/potential.h"
+
+namespace stride {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "stride-potential";
+constexpr int kVersion = 1;
+
+/// A JSON object with its place in the file, so that errors can name it.
+struct Node {
+  const Json& json;
+  std::string file, path;
+
+  Node operator[](const std::string& key) const {
+    const std::string full = path.empty() ? key : path + "." + key;
+    require(json.is_object() && json.contains(key), "{}: {} is missing", file, full);
+    return {json.at(key), file, full};
+  }
+  Node operator[](std::size_t i) const {
+    return {json.at(i), file, fmt::format("{}[{}]", path, i)};
+  }
+  double number() const {
+    require(json.is_number(), "{}: {} = {}: must be a number", file, path, json.dump());
+    return json.get<double>();
+  }
+  double number_or_unknown() const {  // null is written for what is not known
+    return json.is_null() ? std::nan("") : number();
+  }
+  std::string text() const {
+    require(json.is_string(), "{}: {} = {}: must be text", file, path, json.dump());
+    return json.get<std::string>();
+  }
+};
+
+Json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
+
+Eigen::Vector2d point(const Node& node, double (Node::*number)() const) {
+  require(node.json.is_array() && node.json.size() == 2, "{}: {} = {}: must be [x, y]", node.file,
+          node.path, node.json.dump());
+  return {(node[0].*number)(), (node[1].*number)()};
+}
+
+Json to_json(const Pose& pose) {
+  return {{"pelvis_height_m", pose.pelvis_height_m},
+          {"knee_r_m", point(pose.knee_r)},
+          {"foot_r_m", point(pose.foot_r)},
+          {"knee_l_m", point(pose.knee_l)},
+          {"foot_l_m", point(pose.foot_l)}};
+}
+
+Pose pose_from(const Node& node, double (Node::*number)() const) {
+  return {.pelvis_height_m = (node["pelvis_height_m"].*number)(),
+          .knee_r = point(node["knee_r_m"], number),
+          .foot_r = point(node["foot_r_m"], number),
+          .knee_l = point(node["knee_l_m"], number),
+          .foot_l = point(node["foot_l_m"], number)};
+}
+
+template <typename Choice>
+Choice choice(const Node& node, std::initializer_list<Choice> choices) {
+  std::string names;
+  for (const Choice each : choices) {
+    if (name(each) == node.text()) return each;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name(each));
+  }
+  throw Error(
+      fmt::format("{}: {} = '{}': must be one of {}", node.file, node.path, node.text(), names));
+}
+
+bool is_finite(const Pose& pose) {
+  return std::isfinite(pose.pelvis_height_m) && pose.knee_r.allFinite() &&
+         pose.foot_r.allFinite() && pose.knee_l.allFinite() && pose.foot_l.allFinite();
+}
+
+Json parse(const std::string& content, const std::string& file) {
+  try {
+    return Json::parse(content);
+  } catch (const Json::parse_error& error) {
+    throw Error(fmt::format("{}: is not JSON: {}", file, error.what()));
+  }
+}
+
+void require_format(const Node& root) {
+  require(root.json.is_object() && root.json.contains("format"),
+          "{}: is not a potential: the key format = \"{}\" is missing; make one with `stride "
+          "convert`",
+          root.file, kFormat);
+  const std::string format = root["format"].text();
+  require(format == kFormat, "{}: format = '{}': must be '{}'", root.file, format, kFormat);
+  const double version = root["version"].number();
+  require(version == kVersion,
+          "{}: version = {}: this program reads version {}; make the file anew with `stride "
+          "convert`",
+          root.file, version, kVersion);
+}
+
+}  // namespace
+
+void check(const Potential& potential, const std::string& origin) {
+  const auto positive = [&](const char* key, double value) {
+    require(std::isfinite(value) && value > 0, "{}: {} = {}: must be positive", origin, key, value);
+  };
+  positive("stride.period_s", potential.period_s);
+  positive("epsilon_m", potential.epsilon_m);
+  require(std::isfinite(potential.weight) && potential.weight >= 0,
+          "{}: weight = {}: must not be negative", origin, potential.weight);
+  require(potential.foot == "ankle" || potential.foot == "toe",
+          "{}: foot = '{}': must be ankle or toe", origin, potential.foot);
+  const std::size_t n = potential.keyframes.size();
+  require(n >= 2, "{}: {} keyframes: at least two are needed", origin, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Keyframe& keyframe = potential.keyframes[k];
+    const double phase = static_cast<double>(k) / static_cast<double>(n);
+    require(std::abs(keyframe.phase - phase) < 1e-9,
+            "{}: keyframes[{}].phase = {}: must be {}: keyframes are equally spaced from 0", origin,
+            k, keyframe.phase, phase);
+    require(is_finite(keyframe.pose), "{}: keyframes[{}] has a coordinate that is not finite",
+            origin, k);
+  }
+}
+
+Potential load_potential(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const Json json = parse(read_file(path), file);
+  const Node root{json, file, ""};
+  require_format(root);
+  Potential potential;
+  potential.source = root["source"]["file"].text();
+  potential.source_sha256 = root["source"]["sha256"].text();
+  potential.model = root["model"].text();
+  potential.foot = root["foot"].text();
+  potential.period_s = root["stride"]["period_s"].number();
+  potential.period_sd_s = root["stride"]["period_sd_s"].number_or_unknown();
+  potential.speed_m_s = root["stride"]["speed_m_s"].number_or_unknown();
+  potential.rms_px = root["fit"]["rms_px"].number_or_unknown();
+  potential.rms_m = root["fit"]["rms_m"].number_or_unknown();
+  potential.verdict = root["fit"]["verdict"].text();
+  potential.function =
+      choice(root["function"], {InverseDistance::pf1, InverseDistance::pf2, InverseDistance::pf3});
+  potential.index = choice(root["index"], {PotentialIndex::time, PotentialIndex::nearest});
+  potential.epsilon_m = root["epsilon_m"].number();
+  potential.weight = root["weight"].number();
+  const Node keyframes = root["keyframes"];
+  require(keyframes.json.is_array(), "{}: keyframes must be a list", file);
+  for (std::size_t k = 0; k < keyframes.json.size(); ++k) {
+    const Node node = keyframes[k];
+    potential.keyframes.push_back({.phase = node["phase"].number(),
+                                   .pose = pose_from(node, &Node::number),
+                                   .sd = pose_from(node["sd"], &Node::number_or_unknown)});
+  }
+  check(potential, file);
+  return potential;
+}
+
+void save(const Potential& potential, const std::filesystem::path& file) {
+  check(potential, file.string());
+  Json keyframes = Json::array();
+  for (const Keyframe& keyframe : potential.keyframes) {
+    Json json{{"phase", keyframe.phase}};
+    json.update(to_json(keyframe.pose));
+    json["sd"] = to_json(keyframe.sd);  // NaN becomes null
+    keyframes.push_back(std::move(json));
+  }
+  const Json json{
+      {"format", kFormat},
+      {"version", kVersion},
+      {"source", {{"file", potential.source}, {"sha256", potential.source_sha256}}},
+      {"model", potential.model},
+      {"foot", potential.foot},
+      {"stride",
+       {{"period_s", potential.period_s},
+        {"period_sd_s", potential.period_sd_s},
+        {"speed_m_s", potential.speed_m_s}}},
+      {"fit",
+       {{"rms_px", potential.rms_px}, {"rms_m", potential.rms_m}, {"verdict", potential.verdict}}},
+      {"function", name(potential.function)},
+      {"index", name(potential.index)},
+      {"epsilon_m", potential.epsilon_m},
+      {"weight", potential.weight},
+      {"keyframes", keyframes}};
+  write_file_atomically(file, json.dump(1) + "\n");
+}
+
+}  // namespace stride

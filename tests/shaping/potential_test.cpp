@@ -1,0 +1,120 @@
+#include "shaping/potential.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace stride {
+namespace {
+
+Potential hamner() { return load_potential(STRIDE_TEST_DATA "/hamner.potential.json"); }
+
+/// A pose a few centimetres away from `from`.
+Pose nearby(const Pose& from, std::mt19937_64& random, double spread_m) {
+  std::uniform_real_distribution<double> offset(-spread_m, spread_m);
+  Pose pose = from;
+  pose.pelvis_height_m += offset(random);
+  for (Eigen::Vector2d* p : {&pose.knee_r, &pose.foot_r, &pose.knee_l, &pose.foot_l})
+    *p += Eigen::Vector2d(offset(random), offset(random));
+  return pose;
+}
+
+double distance(const Pose& a, const Pose& b) {
+  return std::abs(a.pelvis_height_m - b.pelvis_height_m) + (a.knee_r - b.knee_r).norm() +
+         (a.foot_r - b.foot_r).norm() + (a.knee_l - b.knee_l).norm() + (a.foot_l - b.foot_l).norm();
+}
+
+TEST(Potential, HasThePapersClosedForms) {
+  Potential potential = hamner();
+  potential.weight = 2;
+  potential.epsilon_m = 0.01;
+  Pose pose = potential.target(0.25);
+  pose.pelvis_height_m += 0.1;
+  pose.knee_r += Eigen::Vector2d(0.03, -0.04);
+  const double e = 0.01, at_target_pf1 = 3 / e, at_target_pf3 = 3 / (e * e);
+  potential.function = InverseDistance::pf1;
+  EXPECT_NEAR(potential(pose, 0.25), 2 * (at_target_pf1 + 1 / 0.11 + 1 / 0.08), 1e-9);
+  potential.function = InverseDistance::pf2;
+  EXPECT_NEAR(potential(pose, 0.25),
+              2 * (at_target_pf1 + 1 / std::sqrt(0.01 + e * e) + 1 / std::sqrt(0.0025 + e * e)),
+              1e-9);
+  potential.function = InverseDistance::pf3;
+  EXPECT_NEAR(potential(pose, 0.25),
+              2 * (at_target_pf3 + 1 / (0.01 + e * e) + 1 / (0.0025 + e * e)), 1e-6);
+}
+
+TEST(Potential, IsHighestOnTheStride) {
+  std::mt19937_64 random(1);
+  Potential potential = hamner();
+  for (const auto function : {InverseDistance::pf1, InverseDistance::pf2, InverseDistance::pf3}) {
+    potential.function = function;
+    for (int i = 0; i < 50; ++i) {
+      const double phase = i / 50.0;
+      const Pose on = potential.target(phase), off = nearby(on, random, 0.2);
+      EXPECT_GT(potential(on, phase), potential(off, phase));
+    }
+  }
+}
+
+TEST(Potential, IsBoundedOnTheStrideByEpsilon) {
+  Potential potential = hamner();
+  potential.epsilon_m = 0.03;
+  EXPECT_NEAR(potential(potential.target(0.3), 0.3), 5 / (0.03 * 0.03), 1e-6);
+}
+
+TEST(Potential, PassesThroughItsKeyframesAndIsPeriodic) {
+  const Potential potential = hamner();
+  for (const Keyframe& keyframe : potential.keyframes) {
+    EXPECT_LT(distance(potential.target(keyframe.phase), keyframe.pose), 1e-12);
+    EXPECT_LT(distance(potential.target(keyframe.phase - 3), keyframe.pose), 1e-12);
+  }
+}
+
+TEST(Potential, FollowsASineBetweenEightKeyframes) {
+  Potential potential = hamner();
+  const double turn = 2 * std::numbers::pi;
+  for (Keyframe& keyframe : potential.keyframes)
+    keyframe.pose.foot_r = {std::cos(turn * keyframe.phase), std::sin(turn * keyframe.phase)};
+  double worst = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double phase = i / 100.0;
+    const Eigen::Vector2d truth(std::cos(turn * phase), std::sin(turn * phase));
+    worst = std::max(worst, (potential.target(phase).foot_r - truth).norm());
+  }
+  EXPECT_LT(worst, 2e-3);  // a periodic cubic spline errs by h⁴/384 · (2π)⁴ = 1.0e-3 in each axis
+  EXPECT_GT(worst, 1e-4);  // and is not the sine itself
+}
+
+TEST(Potential, OfTheMirroredPoseHalfACycleLaterIsTheSame) {
+  std::mt19937_64 random(2);
+  Potential potential = hamner();
+  for (const auto index : {PotentialIndex::time, PotentialIndex::nearest}) {
+    potential.index = index;
+    for (int i = 0; i < 40; ++i) {
+      const double phase = i / 37.0;
+      const Pose pose = nearby(potential.target(phase), random, 0.3);
+      EXPECT_NEAR(potential(pose.mirrored(), phase + 0.5), potential(pose, phase),
+                  1e-9 * potential(pose, phase));
+    }
+  }
+}
+
+TEST(Potential, OfTheNearestKeyframeDoesNotDependOnPhase) {
+  Potential potential = hamner();
+  potential.index = PotentialIndex::nearest;
+  const Pose pose = potential.keyframes[3].pose;
+  EXPECT_EQ(potential(pose, 0.1), potential(pose, 0.9));
+  potential.index = PotentialIndex::time;
+  EXPECT_NE(potential(pose, 0.1), potential(pose, 0.9));
+}
+
+TEST(Potential, AdvancesItsPhaseWithTheCadenceOfTheVideo) {
+  Potential potential = hamner();
+  potential.period_s = 0.7;
+  EXPECT_NEAR(potential.phase_at(0.35), 0.5, 1e-12);
+  EXPECT_NEAR(potential.phase_at(0.7 * 13 + 0.07), 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace stride
