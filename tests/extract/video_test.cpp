@@ -65,7 +65,9 @@ TEST(Video, KeepsTheTimesOfAVariableRate) {
     // The last two come out of the decoder without a stamp and continue with the last step.
     const double tolerance_s = i + 2 < frames.size() ? 1e-3 : 0.07;
     EXPECT_NEAR(frames[i].time_s, shown[i] / 30.0, tolerance_s) << i;
-    if (i > 0) EXPECT_GT(frames[i].time_s, frames[i - 1].time_s);
+    if (i > 0) {
+      EXPECT_GT(frames[i].time_s, frames[i - 1].time_s);
+    }
   }
 }
 
