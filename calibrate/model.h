@@ -24,8 +24,7 @@ struct Coordinate {
   std::string name;
   bool rotational = true;  // rad, else m
   double default_value = 0, default_speed = 0;
-  double range_min = 0,
-         range_max = 0;  // rad or m; limits path points (O8, O9), never the motion unless `clamped`
+  double range_min = -10, range_max = 10;  // rad or m; limits moving path points, not the motion
   bool clamped = false, locked = false;
 };
 
@@ -87,7 +86,7 @@ struct Muscle {
   double activation_time_constant_s = 0.015, deactivation_time_constant_s = 0.05;
   double minimum_activation = 0.01;
   double FmaxTendonStrain = 0.04, FmaxMuscleStrain = 0.6;
-  double KshapeActive = 0.45, KshapePassive = 4, Af = 0.3, Flen = 1.4;
+  double KshapeActive = 0.45, KshapePassive = 5, Af = 0.25, Flen = 1.4;
   double fv_linear_extrap_threshold = 0.95;
   double maximum_pennation_angle_rad = 1.4706289056333368;  // acos(0.1)
   std::optional<double> default_fiber_length_m;  // of the file; none: OpenSim's 0.1 m (O1)
@@ -150,6 +149,9 @@ struct Model {
 /// frames). Whatever would change the motion and is not understood is an Error that names file,
 /// line and element.
 Model load_osim(const std::filesystem::path& file);
+
+/// The model for a person: what it consists of, with its units.
+std::string describe(const Model& model);
 
 /// `calibrate/models/gait9dof18musc.osim`, the model of "Learning to Run".
 std::filesystem::path default_model_file();
