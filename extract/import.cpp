@@ -1,0 +1,114 @@
+#include "extract/import.h"
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "extract/error.h"
+#include "extract/file.h"
+#include "extract/import/formats.h"
+#include "extract/import/people.h"
+#include "extract/import/text.h"
+
+namespace stride {
+namespace fs = std::filesystem;
+namespace {
+
+/// Which format a file is, from its first bytes. Empty: none that we know.
+std::string sniff(std::string_view content) {
+  const auto start = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (start == std::string_view::npos) return "";
+  const std::string_view head = content.substr(start, 4096);
+  if (head.front() == '{' && head.find("\"people\"") != std::string_view::npos) return "openpose";
+  if (head.starts_with("scorer") || head.starts_with("bodyparts")) return "deeplabcut";
+  return "";
+}
+
+DetectedPeople read_openpose_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  require(!files.empty(),
+          "{}: a folder without .json files: expected OpenPose's NAME_000000000012_keypoints.json",
+          folder.string());
+  std::ranges::sort(files);
+  DetectedPeople people;
+  for (const fs::path& file : files) {
+    const auto frame = last_number(file.stem().string());
+    require(frame.has_value(),
+            "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints"
+            ".json",
+            file.string());
+    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame);
+    people.insert(people.end(), more.begin(), more.end());
+  }
+  return people;
+}
+
+DetectedPeople read(const std::string& format, std::string_view content, const std::string& file,
+                    const ImportOptions& options) {
+  if (format == "openpose")
+    return read_openpose(content, file, last_number(fs::path(file).stem().string()).value_or(0));
+  return read_deeplabcut(content, file, options);
+}
+
+}  // namespace
+
+const std::vector<std::string>& import_formats() {
+  static const std::vector<std::string> formats{"openpose", "deeplabcut"};
+  return formats;
+}
+
+Detections import_points(const fs::path& path, const ImportOptions& options) {
+  require(fs::exists(path), "{}: no such file or folder", path.string());
+  std::string format = options.format;
+  require(format.empty() || std::ranges::find(import_formats(), format) != import_formats().end(),
+          "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
+  DetectedPeople people;
+  if (fs::is_directory(path)) {
+    require(format.empty() || format == "openpose",
+            "{}: is a folder; a folder is read as OpenPose's, not as {}", path.string(), format);
+    format = "openpose";
+    people = read_openpose_folder(path);
+  } else {
+    const std::string content = read_file(path);
+    if (format.empty()) format = sniff(content);
+    require(!format.empty(),
+            "{}:1: not a format of points that is known; expected one of {} (see --format)",
+            path.string(), fmt::join(import_formats(), ", "));
+    people = read(format, content, path.string(), options);
+  }
+  Detections detections = take_person(std::move(people), options, path.string());
+  detections.format = format;
+  return detections;
+}
+
+void add_import_options(CLI::App& command, ImportOptions& options) {
+  command
+      .add_option("--format", options.format, "Format of the imported file, if not told from it")
+      ->check(CLI::IsMember(import_formats()));
+  command.add_option("--person", options.person,
+                     "Which person of the imported file: 1 the largest sustained, 2 the next, …");
+  command.add_option("--min-confidence", options.min_confidence,
+                     "Imported points below this count as absent");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--labels",
+          [&options](const std::vector<std::string>& pairs) {
+            for (const std::string& pair : pairs) {
+              const auto equals = pair.find('=');
+              require(equals != std::string::npos, "--labels {}: expected PART=LABEL", pair);
+              body_part(pair.substr(0, equals));
+              options.labels[pair.substr(0, equals)] = pair.substr(equals + 1);
+            }
+          },
+          "Names in the imported file, PART=LABEL,…")
+      ->delimiter(',');
+  command.add_option("--y-up", options.y_up_height_px,
+                     "The imported file's y grows upwards; height of the video in px");
+  command.add_option("--import-rate", options.rate_hz,
+                     "Frame rate of the video in Hz, for files that say times and no frames");
+}
+
+}  // namespace stride
