@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "videos/camera.h"
+#include "videos/skeleton.h"
+
+namespace stride::videos {
+
+/// Everything that makes a clip; the same clip gives the same frames.
+struct Clip {
+  std::string name, description;
+  std::string character = "human", scene = "track";  // or "markers" and "dark", for tests
+  std::uint64_t seed = 1;
+  int width_px = 640, height_px = 360;
+  double rate_hz = 30;
+  int frames = 96;
+
+  Gait gait;
+  Proportions proportions;
+  double first_phase = 0;
+  double deviation_rad = 0;  // rms of every joint from the mean stride, slow and random
+  bool to_left = false;
+
+  Camera camera;  // at the start; x_m relative to the runner if it follows
+  bool camera_follows = true;
+  double sway_m = 0.10;  // how far the camera lags and leads
+  double zoom = 0;       // growth of the focal length over the clip
+
+  double shutter = 0.35;    // open part of the time between frames
+  int samples = 14;         // a pixel: through the shutter's time and the pixel's area
+  double noise_grey = 2.4;  // of the sensor, of 255
+  double vignette = 0.09;   // darkening toward the corners
+};
+
+/// A clip with what follows from it.
+class Motion {
+ public:
+  explicit Motion(const Clip& clip);
+
+  const Clip& clip() const { return clip_; }
+  double speed_m_s() const { return grounding_.speed_m_s; }
+  Skeleton skeleton(double time_s) const;
+  Camera camera(double time_s) const;
+
+ private:
+  struct Wave {
+    double cycles_per_s = 0, phase = 0;
+  };
+  double slow(const std::vector<Wave>& waves, double time_s) const;
+  std::vector<Wave> waves(std::uint64_t salt) const;
+
+  Clip clip_;
+  Grounding grounding_;
+  std::vector<std::vector<Wave>> joints_;
+  std::vector<Wave> sway_x_, sway_y_;
+};
+
+std::vector<Clip> clips();
+/// Throws Error with the list of names.
+Clip clip(std::string_view name);
+
+}  // namespace stride::videos

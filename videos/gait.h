@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stride::videos {
+
+/// A periodic curve: mean + Σ cosine_h cos 2πhφ + sine_h sin 2πhφ, φ the fraction of the stride.
+struct Harmonics {
+  struct Term {
+    double cosine = 0, sine = 0;
+  };
+  double mean = 0;
+  std::vector<Term> terms;
+
+  double operator()(double phase) const;
+};
+
+/// How somebody runs: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee −
+/// flexion, ankle + dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot
+/// strike, the left leg half a stride later.
+struct Gait {
+  std::string name, source;
+  double period_s = 0;
+  Harmonics hip_flexion_deg, knee_angle_deg, ankle_angle_deg, pelvis_tilt_deg;
+  Harmonics pelvis_height_m;  // for legs of 0.857 m; only its variation is used
+  // What the sources do not tell, by eye.
+  Harmonics trunk_lean_deg;           // of the line hips → shoulders, forward positive
+  Harmonics shoulder_deg, elbow_deg;  // of the right arm, flexion positive
+  double shoulder_swing_m = 0.045;    // fore and aft, by the rotation of the trunk
+  double hip_swing_m = 0,
+         hip_drop_m = 0;  // of the right hip, by the rotation and list of the pelvis
+};
+
+/// Rajagopal et al. 2016, run of subject 1 on a treadmill at 3.8 m/s.
+Gait rajagopal_run();
+
+}  // namespace stride::videos

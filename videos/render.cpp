@@ -1,0 +1,89 @@
+#include "videos/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "extract/error.h"
+#include "videos/costume.h"
+#include "videos/noise.h"
+#include "videos/scene.h"
+
+namespace stride::videos {
+namespace {
+
+std::unique_ptr<Costume> make_costume(const Clip& clip) {
+  if (clip.character == "human") return human_costume(clip.seed + 1);
+  if (clip.character == "markers") return marker_costume();
+  throw Error(
+      fmt::format("clip {}: character '{}': must be human or markers", clip.name, clip.character));
+}
+
+std::unique_ptr<Scene> make_scene(const Clip& clip) {
+  if (clip.scene == "track") return track_scene(clip.seed + 2);
+  if (clip.scene == "dark") return dark_scene();
+  throw Error(fmt::format("clip {}: scene '{}': must be track or dark", clip.name, clip.scene));
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+  Motion motion;
+  std::unique_ptr<Costume> costume;
+  std::unique_ptr<Scene> scene;
+};
+
+Renderer::Renderer(const Clip& clip)
+    : parts_(new Parts{Motion(clip), make_costume(clip), make_scene(clip)}) {}
+Renderer::~Renderer() = default;
+
+cv::Mat Renderer::frame(int index) const {
+  const Motion& motion = parts_->motion;
+  const Clip& clip = motion.clip();
+  cv::Mat sample(clip.height_px, clip.width_px, CV_32FC3), sum(sample.size(), CV_32FC3);
+  sum.setTo(cv::Scalar::all(0));
+  std::mt19937_64 jitter(clip.seed * 7919 + static_cast<std::uint64_t>(index));
+  for (int i = 0; i < clip.samples; ++i) {
+    // The samples of a pixel lie on a rotated lattice over its area and equally spaced in time.
+    const double du = (i + uniform(jitter)) / clip.samples - 0.5;
+    const double dv =
+        std::fmod((i * 5 + 2) % clip.samples + uniform(jitter), clip.samples) / clip.samples - 0.5;
+    const double open = clip.shutter * (((i * 3 + 1) % clip.samples + 0.5) / clip.samples - 0.5);
+    const double time_s = (index + open) / clip.rate_hz;
+    const Skeleton skeleton = motion.skeleton(time_s);
+    const Camera camera = motion.camera(time_s);
+    parts_->scene->paint(camera, du, dv, cast_shadow(skeleton), sample);
+    const auto patches = parts_->costume->dress(skeleton, clip.proportions, clip.to_left);
+    for (const Patch& patch : patches) paint(patch, camera, du, dv, sample);
+    sum += sample;
+  }
+  sum /= clip.samples;
+  Normal normal(clip.seed * 104729 + static_cast<std::uint64_t>(index));
+  cv::Mat picture(sum.size(), CV_8UC3);
+  for (int v = 0; v < sum.rows; ++v)
+    for (int u = 0; u < sum.cols; ++u) {
+      const double x = 2.0 * u / sum.cols - 1, y = 2.0 * v / sum.rows - 1;
+      const double vignette = 1 - clip.vignette * (x * x + y * y);
+      for (int c = 0; c < 3; ++c) {
+        const double value = 255 * vignette * sum.at<Colour>(v, u)[c];
+        const double noise = clip.noise_grey > 0 ? clip.noise_grey * normal() : 0;
+        picture.at<cv::Vec3b>(v, u)[c] = cv::saturate_cast<uchar>(value + noise);
+      }
+    }
+  return picture;
+}
+
+void write_video(const Clip& clip, const std::filesystem::path& file,
+                 const std::function<void(int)>& progress) {
+  cv::VideoWriter writer(file.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                         clip.rate_hz, {clip.width_px, clip.height_px});
+  require(writer.isOpened(), "{}: cannot be written as H.264 by this OpenCV", file.string());
+  const Renderer renderer(clip);
+  for (int i = 0; i < clip.frames; ++i) {
+    writer.write(renderer.frame(i));
+    if (progress) progress(i);
+  }
+}
+
+}  // namespace stride::videos

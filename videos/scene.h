@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "videos/camera.h"
+#include "videos/noise.h"
+#include "videos/patch.h"
+#include "videos/skeleton.h"
+
+namespace stride::videos {
+
+/// A soft patch of shadow on the ground.
+struct ShadowBlob {
+  double x_m = 0, z_m = 0, radius_m = 0, strength = 0;
+};
+
+/// The shadow that the runner casts under a high sun before and beside it.
+std::vector<ShadowBlob> cast_shadow(const Skeleton& skeleton);
+
+/// Where the runner runs. `z` here grows toward the camera; the runner runs at z = 0.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+  /// Paints every pixel of an image of floats, one sample at (u + du, v + dv) of each.
+  void paint(const Camera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
+             cv::Mat& image) const;
+
+ protected:
+  virtual Colour ground(double x_m, double z_m) const = 0;
+  /// A wall stands at this z, up to wall_height_m.
+  virtual double wall_z_m() const = 0;
+  virtual double wall_height_m() const = 0;
+  virtual Colour wall(double x_m, double y_m) const = 0;
+  /// Behind the wall: `x` along the way as seen 30 m behind it, `elevation` the tangent above the
+  /// horizon.
+  virtual Colour beyond(double x_m, double elevation) const = 0;
+};
+
+/// A running track with boards and trees behind it.
+std::unique_ptr<Scene> track_scene(std::uint64_t seed);
+
+/// Nothing but black.
+std::unique_ptr<Scene> dark_scene();
+
+}  // namespace stride::videos

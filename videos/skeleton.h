@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "extract/body_part.h"
+#include "videos/gait.h"
+
+namespace stride::videos {
+
+/// Lengths between joint centres, m.
+struct Proportions {
+  double thigh = 0.429, shank = 0.428;  // of Rajagopal's subject
+  double toe_forward = 0.205, toe_down = 0.058, heel_back = 0.07,
+         sole_down = 0.084;           // from the ankle
+  double trunk = 0.57, neck = 0.165;  // hips to shoulders, shoulders to the centre of the head
+  double upper_arm = 0.30, forearm = 0.255;
+  double hip_half_width = 0.085, ankle_half_width = 0.05, shoulder_half_width = 0.19;
+};
+
+/// Where everything of the runner is, m and rad. x the way of running, y up, z to the runner's
+/// right; index 0 right, 1 left.
+struct Skeleton {
+  double phase = 0;
+  double pelvis_tilt = 0;
+  std::array<double, 2> hip_flexion{}, knee_angle{}, ankle_angle{};
+  Eigen::Vector3d pelvis, shoulders, head;  // the midpoint of the hips, of the shoulders
+  std::array<Eigen::Vector3d, 2> hip, knee, ankle, toe, shoulder, elbow, wrist;
+  double trunk_lean = 0, head_pitch = 0;
+  /// Angle of a segment from hanging straight down, forward positive; of the foot, toes up.
+  std::array<double, 2> thigh_angle{}, shank_angle{}, foot_angle{}, upper_arm_angle{},
+      forearm_angle{};
+
+  const Eigen::Vector3d& operator[](BodyPart part) const;
+};
+
+/// Deviations from the mean stride, rad.
+struct Deviation {
+  std::array<double, 2> hip{}, knee{}, ankle{};
+};
+
+/// The runner at a phase of the stride, hips at (x, height).
+Skeleton pose(const Gait& gait, const Proportions& proportions, double phase, double x_m,
+              double pelvis_height_m, const Deviation& deviation = {});
+
+/// Height of the lowest point of a shoe above the ground.
+double clearance(const Skeleton& skeleton, const Proportions& proportions, int side);
+
+/// What makes a gait stand on the ground with these proportions.
+struct Grounding {
+  double mean_height_m =
+      0;                 // of the hips, so that the lowest shoe of the stride touches the ground
+  double speed_m_s = 0;  // so that the shoe that is on the ground stands still on average
+};
+Grounding ground(const Gait& gait, const Proportions& proportions);
+
+}  // namespace stride::videos

@@ -1,0 +1,130 @@
+#include "videos/truth.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "extract/file.h"
+#include "videos/noise.h"
+
+namespace stride::videos {
+namespace {
+
+constexpr int kClicksPerStride = 8;
+
+std::string direction(const Clip& clip) { return clip.to_left ? "left" : "right"; }
+
+/// To so many decimals, so that files stay short.
+double rounded(double value, double decimals) {
+  const double scale = std::pow(10, decimals);
+  return std::round(value * scale) / scale;
+}
+
+}  // namespace
+
+Trajectory truth_px(const Clip& clip) {
+  const Motion motion(clip);
+  Trajectory trajectory;
+  trajectory.video = clip.name + ".mp4";
+  trajectory.width_px = clip.width_px;
+  trajectory.height_px = clip.height_px;
+  trajectory.rate_hz = clip.rate_hz;
+  trajectory.direction = direction(clip);
+  for (int i = 0; i < clip.frames; ++i) {
+    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    frame.frame = i;
+    frame.time_s = i / clip.rate_hz;
+    const Skeleton skeleton = motion.skeleton(frame.time_s);
+    const Camera camera = motion.camera(frame.time_s);
+    for (const BodyPart part : kBodyParts) frame[part] = {camera.project(skeleton[part]), 1};
+  }
+  return trajectory;
+}
+
+Table truth_m(const Clip& clip) {
+  const Motion motion(clip);
+  const double duration_s = clip.frames / clip.rate_hz;
+  Table table;
+  table.format = "truth";
+  table.set_meta("unit", "m, rad");
+  table.set_meta("video", clip.name + ".mp4");
+  table.set_meta("source", clip.gait.source);
+  table.set_meta("direction", direction(clip));
+  const auto number = [&](const char* key, double value) {
+    table.set_meta(key, fmt::format("{}", value));
+  };
+  number("period_s", clip.gait.period_s);
+  number("speed_m_s", motion.speed_m_s());
+  number("metres_per_pixel", motion.camera(duration_s / 2).metres_per_pixel());
+  number("camera_roll_rad", clip.camera.roll_rad);
+  number("thigh_m", clip.proportions.thigh);
+  number("shank_m", clip.proportions.shank);
+  table.columns = {"frame",        "time_s",        "phase",         "metres_per_pixel",
+                   "pelvis_tilt",  "pelvis_tx",     "pelvis_ty",     "hip_flexion_r",
+                   "knee_angle_r", "ankle_angle_r", "hip_flexion_l", "knee_angle_l",
+                   "ankle_angle_l"};
+  for (const BodyPart part : kBodyParts)
+    for (const char* axis : {"x", "y"})
+      table.columns.push_back(fmt::format("{}_{}", name(part), axis));
+  for (int i = 0; i < clip.frames; ++i) {
+    const double time_s = i / clip.rate_hz;
+    const Skeleton s = motion.skeleton(time_s);
+    std::vector<double> row{
+        static_cast<double>(i), time_s,       s.phase,     motion.camera(time_s).metres_per_pixel(),
+        s.pelvis_tilt,          s.pelvis.x(), s.pelvis.y()};
+    for (int side : {0, 1})
+      row.insert(row.end(), {s.hip_flexion[side], s.knee_angle[side], s.ankle_angle[side]});
+    for (const BodyPart part : kBodyParts) {
+      const Eigen::Vector3d p = s[part] - s.pelvis;
+      row.insert(row.end(), {p.x(), p.y()});
+    }
+    for (std::size_t c = 2; c < row.size(); ++c) row[c] = rounded(row[c], 6);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Keypoints clicks(const Clip& clip, double sd_px) {
+  const Trajectory truth = truth_px(clip);
+  Keypoints keypoints;
+  keypoints.video = truth.video;
+  keypoints.width_px = clip.width_px;
+  keypoints.height_px = clip.height_px;
+  keypoints.direction = direction(clip);
+  keypoints.near_leg = clip.to_left ? "left" : "right";
+  Normal normal(clip.seed * 15485863);
+  const double step = clip.gait.period_s * clip.rate_hz / kClicksPerStride;
+  for (double at = 0; at < clip.frames - 0.5; at += step) {
+    const TrajectoryFrame& frame = truth.frames[static_cast<std::size_t>(std::lround(at))];
+    ClickedFrame& clicked = keypoints.frames[frame.frame];
+    clicked.time_s = frame.time_s;
+    for (const BodyPart part :
+         {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
+          BodyPart::ankle_l, BodyPart::toe_l}) {
+      const Eigen::Vector2d off(sd_px * normal(), sd_px * normal());
+      Click click;
+      click.p_px = (frame[part].p_px + off).unaryExpr([](double x) { return rounded(x, 2); });
+      clicked[part] = click;
+    }
+  }
+  return keypoints;
+}
+
+void write_truth(const Clip& clip, const std::filesystem::path& video) {
+  const std::string hash = sha256_of_file(video);
+  auto beside = [&](const char* extension) {
+    return video.parent_path() / (clip.name + extension);
+  };
+  Trajectory trajectory = truth_px(clip);
+  trajectory.video_sha256 = hash;
+  for (TrajectoryFrame& frame : trajectory.frames)
+    for (Point& point : frame.points)
+      point.p_px = point.p_px.unaryExpr([](double x) { return rounded(x, 3); });
+  save(trajectory, beside(".truth.csv"));
+  save(truth_m(clip), beside(".truth_m.csv"));
+  Keypoints keypoints = clicks(clip);
+  keypoints.video_sha256 = hash;
+  save(keypoints, beside(".keypoints.json"));
+}
+
+}  // namespace stride::videos

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include "extract/keypoints.h"
+#include "extract/table.h"
+#include "extract/trajectory.h"
+#include "videos/clip.h"
+
+namespace stride::videos {
+
+/// Where the parts are in every frame, px, by projection.
+Trajectory truth_px(const Clip& clip);
+
+/// The same in metres with the joint angles: `# stride truth 1`. Metadata: source, period_s,
+/// speed_m_s, metres_per_pixel, camera_roll_rad, direction, thigh_m, shank_m. Columns: frame,
+/// time_s, phase (0 = right foot strike), metres_per_pixel, the nine coordinates by OpenSim's
+/// names (rad, m; pelvis_tx, pelvis_ty of the midpoint of the hips above the ground), and
+/// <part>_x, <part>_y of every part from the midpoint of the hips, x the way of running, y up.
+Table truth_m(const Clip& clip);
+
+/// The clicks that a person would make at the paper's rate: four positions a half step, eight a
+/// stride, each `sd_px` off; the required parts and the toes.
+Keypoints clicks(const Clip& clip, double sd_px = 1.5);
+
+/// Writes NAME.truth.csv, NAME.truth_m.csv and NAME.keypoints.json beside the video.
+void write_truth(const Clip& clip, const std::filesystem::path& video);
+
+}  // namespace stride::videos
