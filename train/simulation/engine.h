@@ -110,7 +110,10 @@ class Engine {
   virtual std::array<double, kCoordinates * kCoordinates> mass_matrix() = 0;
 };
 
-/// "simbody" or "planar". Throws Error if the engine is not known or cannot represent the model,
+/// The engines that there are; the first is the reference.
+inline constexpr std::array kEngineNames{"simbody"};
+
+/// One of kEngineNames. Throws Error if the engine is not known or cannot represent the model,
 /// with the reason and the advice.
 std::unique_ptr<Engine> make_engine(std::string_view name, const Model& model,
                                     const EngineOptions& options = {});

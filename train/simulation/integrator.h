@@ -1,0 +1,95 @@
+#pragma once
+
+// C++17-clean and free of Simbody and Eigen.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "train/simulation/engine.h"
+
+namespace stride {
+
+/// Merson's fourth-order Runge–Kutta method with its embedded error estimate, the one that OpenSim
+/// integrates with. `rate(y, ydot)` writes the derivative of y; `error_of(difference)` is the norm
+/// of an error estimate, to be kept below the accuracy.
+template <std::size_t N>
+class MersonIntegrator {
+ public:
+  using Vector = std::array<double, N>;
+
+  /// Forgets the step size that the past suggested.
+  void restart() { step_s_ = 0; }
+
+  /// Advances `y` by duration_s. On failure `y` is the last good state.
+  template <typename Rate, typename Norm>
+  AdvanceReport advance(Vector& y, double duration_s, const EngineOptions& options,
+                        const Rate& rate, const Norm& error_of) {
+    AdvanceReport report;
+    double left = duration_s;
+    bool have_first = false;
+    if (step_s_ <= 0) step_s_ = duration_s / 10;
+    while (left > 0) {
+      const double wanted = options.fixed_step ? options.fixed_step_s : step_s_;
+      // The last steps share what is left rather than leave a sliver.
+      const bool last = wanted >= left * (1 - 1e-12);
+      const double h = last ? left : wanted > left / 2 ? left / 2 : wanted;
+      if (h < kSmallestStep_s && !last) return fail(report, "the step size fell below 1e-12 s");
+      if (report.evaluations + 5 > options.max_evaluations)
+        return fail(report, "the evaluations ran out");
+
+      if (!have_first) rate(y, k1_), ++report.evaluations;
+      attempt(y, h, rate);
+      report.evaluations += 4;
+      const double error = error_of(error_) / options.accuracy;
+      const bool finite = std::isfinite(error);
+      if (options.fixed_step ? finite : error <= 1) {
+        y = next_;
+        left = last ? 0 : left - h;
+        have_first = false;
+        ++report.steps;
+      } else if (options.fixed_step) {
+        return fail(report, "the state is not finite");
+      } else {
+        have_first = true;
+        ++report.rejected;
+      }
+      const double factor = finite ? 0.9 * std::pow(std::max(error, 1e-10), -0.25) : 0.1;
+      const double proposal = h * std::clamp(factor, 0.1, error <= 1 ? 5.0 : 0.9);
+      // A step cut short by the end of the interval says nothing against the longer one.
+      step_s_ = error <= 1 && h < wanted ? std::max(wanted, proposal) : proposal;
+    }
+    return report;
+  }
+
+ private:
+  static constexpr double kSmallestStep_s = 1e-12;
+
+  static AdvanceReport fail(AdvanceReport report, const char* why) {
+    report.ok = false;
+    report.failure = why;
+    return report;
+  }
+
+  template <typename Rate>
+  void attempt(const Vector& y, double h, const Rate& rate) {
+    for (std::size_t i = 0; i < N; ++i) at_[i] = y[i] + h / 3 * k1_[i];
+    rate(at_, k2_);
+    for (std::size_t i = 0; i < N; ++i) at_[i] = y[i] + h / 6 * (k1_[i] + k2_[i]);
+    rate(at_, k3_);
+    for (std::size_t i = 0; i < N; ++i) at_[i] = y[i] + h / 8 * (k1_[i] + 3 * k3_[i]);
+    rate(at_, k4_);
+    for (std::size_t i = 0; i < N; ++i) at_[i] = y[i] + h / 2 * (k1_[i] - 3 * k3_[i] + 4 * k4_[i]);
+    rate(at_, k5_);
+    for (std::size_t i = 0; i < N; ++i) {
+      next_[i] = y[i] + h / 6 * (k1_[i] + 4 * k4_[i] + k5_[i]);
+      error_[i] = 0.2 * (next_[i] - at_[i]);
+    }
+  }
+
+  double step_s_ = 0;
+  Vector k1_{}, k2_{}, k3_{}, k4_{}, k5_{}, at_{}, next_{}, error_{};
+};
+
+}  // namespace stride

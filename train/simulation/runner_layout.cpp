@@ -1,0 +1,45 @@
+#include "train/simulation/runner_layout.h"
+
+#include <algorithm>
+
+#include "calibrate/calibrated.h"
+#include "extract/error.h"
+
+namespace stride {
+
+const std::array<std::string, kMuscles>& muscle_names() {
+  static const std::array<std::string, kMuscles> names = [] {
+    const char* of_a_leg[] = {"hamstrings", "bifemsh", "glut_max", "iliopsoas", "rect_fem",
+                              "vasti",      "gastroc", "soleus",   "tib_ant"};
+    std::array<std::string, kMuscles> all;
+    for (int i = 0; i < kMuscles; ++i)
+      all[i] = std::string(of_a_leg[i % 9]) + (i < 9 ? "_r" : "_l");
+    return all;
+  }();
+  return names;
+}
+
+RunnerLayout runner_layout(const Model& model) {
+  RunnerLayout layout;
+  for (int i = 0; i < kCoordinates; ++i) {
+    layout.coordinate[i] = model.coordinate(kCoordinateNames[i]);
+    require(layout.coordinate[i] >= 0 && !model.coordinates[layout.coordinate[i]].locked,
+            "model {}: has no free coordinate {}; a runner needs {}", model.name,
+            kCoordinateNames[i], fmt::join(kCoordinateNames, ", "));
+  }
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i)
+    require(model.coordinates[i].locked ||
+                std::count(layout.coordinate.begin(), layout.coordinate.end(), i) == 1,
+            "model {}: coordinate {} is not one of the runner's; lock it", model.name,
+            model.coordinates[i].name);
+  require(model.muscles.size() == kMuscles, "model {}: has {} muscles; a runner has {}", model.name,
+          model.muscles.size(), kMuscles);
+  for (int i = 0; i < kMuscles; ++i) {
+    layout.muscle[i] = model.muscle(muscle_names()[i]);
+    require(layout.muscle[i] >= 0, "model {}: has no muscle {}; a runner has {}", model.name,
+            muscle_names()[i], fmt::join(muscle_names(), ", "));
+  }
+  return layout;
+}
+
+}  // namespace stride

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Simbody.h>
+
+#include <array>
+#include <vector>
+
+#include "calibrate/model.h"
+#include "calibrate/spline.h"
+#include "train/simulation/engine.h"
+#include "train/simulation/runner_layout.h"
+
+namespace stride {
+
+/// A planar joint with one coordinate: angle about z and place of the child in the parent's joint
+/// frame, each a function of the coordinate.
+class PlanarMotion {
+ public:
+  /// Throws Error if the joint leaves the sagittal plane.
+  PlanarMotion(const Model& model, const Joint& joint);
+
+  struct At {
+    SplineValue angle, x, y;
+  };
+  At at(double q) const;
+
+ private:
+  struct Part {
+    Vec3 direction{};  // what the function's value adds to: angle, x and y
+    TransformAxis axis;
+    SplineCoefficients spline;
+  };
+  std::vector<Part> parts_;
+};
+
+/// The bodies of a model as a Simbody system. Bodies that are welded to their parent, or whose
+/// coordinates are locked, are one rigid body with it.
+class SimbodySkeleton {
+ public:
+  SimbodySkeleton(const Model& model, const RunnerLayout& layout);
+
+  /// Where a body of Model::bodies is: fixed in a body of Simbody's.
+  struct Placement {
+    SimTK::MobilizedBodyIndex root{0};
+    SimTK::Transform in_root;
+  };
+
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter;
+  std::vector<Placement> bodies;
+  std::array<int, kCoordinates> slot{};  // of a runner's coordinate among Simbody's q and u
+  SimTK::State state;
+
+ private:
+  SimTK::MobilizedBody mobilize(const Model& model, const Joint& joint,
+                                const SimTK::MassProperties& mass);
+};
+
+}  // namespace stride
