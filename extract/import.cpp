@@ -20,8 +20,22 @@ std::string sniff(std::string_view content) {
   const auto start = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (start == std::string_view::npos) return "";
   const std::string_view head = content.substr(start, 4096);
-  if (head.front() == '{' && head.find("\"people\"") != std::string_view::npos) return "openpose";
-  if (head.starts_with("scorer") || head.starts_with("bodyparts")) return "deeplabcut";
+  const std::string_view line = head.substr(0, head.find('\n'));
+  const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
+  if (head.front() == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
+  if (head.front() == '{') {
+    if (has("\"people\"")) return "openpose";
+    if (has("\"instance_info\"")) return "mmpose";
+    if (has("\"annotations\"")) return "coco";
+    return has("\"stride points\"") ? "json" : "";
+  }
+  if (head.front() == '<') return has("<annotations") ? "cvat" : "";
+  if (line.starts_with("scorer") || line.starts_with("bodyparts")) return "deeplabcut";
+  if (line.starts_with("track,frame_idx")) return "sleap";
+  if (line.starts_with("PathFileType")) return "trc";
+  if (line.starts_with("Time") || line.starts_with("\"Time\"")) return "kinovea";
+  if (line.find("_cam1_X") != line.npos) return "dltdv";
+  if (line.starts_with("# stride trajectory") || line.starts_with("frame,")) return "csv";
   return "";
 }
 
@@ -46,17 +60,40 @@ DetectedPeople read_openpose_folder(const fs::path& folder) {
   return people;
 }
 
-DetectedPeople read(const std::string& format, std::string_view content, const std::string& file,
-                    const ImportOptions& options) {
-  if (format == "openpose")
-    return read_openpose(content, file, last_number(fs::path(file).stem().string()).value_or(0));
-  return read_deeplabcut(content, file, options);
+using Reader = DetectedPeople (*)(std::string_view, const std::string&, const ImportOptions&);
+
+/// Every format by its name.
+const std::vector<std::pair<std::string, Reader>>& readers() {
+  static const std::vector<std::pair<std::string, Reader>> readers{
+      {"openpose",
+       [](std::string_view content, const std::string& file, const ImportOptions&) {
+         const auto frame = last_number(fs::path(file).stem().string());
+         return read_openpose(content, file, frame.value_or(0));
+       }},
+      {"deeplabcut", read_deeplabcut},
+      {"coco", read_coco},
+      {"alphapose", read_coco},
+      {"mmpose", read_mmpose},
+      {"sleap", read_sleap},
+      {"trc", read_trc},
+      {"cvat", read_cvat},
+      {"kinovea", read_kinovea},
+      {"dltdv", read_dltdv},
+      {"csv", read_own_csv},
+      {"json", [](std::string_view content, const std::string& file, const ImportOptions&) {
+         return read_own_json(content, file);
+       }}};
+  return readers;
 }
 
 }  // namespace
 
 const std::vector<std::string>& import_formats() {
-  static const std::vector<std::string> formats{"openpose", "deeplabcut"};
+  static const std::vector<std::string> formats = [] {
+    std::vector<std::string> names;
+    for (const auto& [name, reader] : readers()) names.push_back(name);
+    return names;
+  }();
   return formats;
 }
 
@@ -77,7 +114,8 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
     require(!format.empty(),
             "{}:1: not a format of points that is known; expected one of {} (see --format)",
             path.string(), fmt::join(import_formats(), ", "));
-    people = read(format, content, path.string(), options);
+    const auto reader = std::ranges::find(readers(), format, [](const auto& r) { return r.first; });
+    people = reader->second(content, path.string(), options);
   }
   Detections detections = take_person(std::move(people), options, path.string());
   detections.format = format;

@@ -58,7 +58,7 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   return trajectory;
 }
 
-void save(const Trajectory& trajectory, const std::filesystem::path& file) {
+Table table_of(const Trajectory& trajectory) {
   Table table;
   table.format = "trajectory";
   table.version = kVersion;
@@ -81,7 +81,11 @@ void save(const Trajectory& trajectory, const std::filesystem::path& file) {
     for (const Point& point : frame.points)
       row.insert(row.end(), {point.p_px.x(), point.p_px.y(), point.confidence});
   }
-  save(table, file);
+  return table;
+}
+
+void save(const Trajectory& trajectory, const std::filesystem::path& file) {
+  save(table_of(trajectory), file);
 }
 
 }  // namespace stride

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "extract/body_part.h"
+#include "extract/table.h"
 
 namespace stride {
 
@@ -49,5 +50,8 @@ struct Trajectory {
 /// trajectory instead.
 Trajectory load_trajectory(const std::filesystem::path& file);
 void save(const Trajectory& trajectory, const std::filesystem::path& file);
+
+/// What save() writes.
+Table table_of(const Trajectory& trajectory);
 
 }  // namespace stride

@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "extract/error.h"
+#include "extract/import/columns.h"
 #include "extract/import/formats.h"
 #include "extract/import/labels.h"
 #include "extract/import/text.h"
@@ -45,40 +44,32 @@ Header read_header(const std::vector<TextLine>& lines, const std::string& file) 
   return header;
 }
 
-/// Where one animal's points are: a column for each coordinate of each label, 0 = none.
 struct Animal {
   std::string id;
-  std::vector<std::string> labels;
-  std::vector<std::array<std::size_t, 3>> columns;  // x, y, likelihood
+  PointColumns columns;
 };
 
 std::vector<Animal> find_animals(const Header& header, const std::string& file) {
   std::vector<Animal> animals;
   for (std::size_t c = 1; c < header.coords->cells.size(); ++c) {
     const std::string& coordinate = header.coords->cells[c];
-    const std::string& label = header.bodyparts->cells[c];
     if (coordinate.empty()) continue;  // the index may take three columns
     const std::string id = header.individuals ? header.individuals->cells[c] : "single";
     auto animal = std::ranges::find(animals, id, &Animal::id);
-    if (animal == animals.end()) animal = animals.insert(animal, Animal{id, {}, {}});
-    auto known = std::ranges::find(animal->labels, label);
-    const auto i = static_cast<std::size_t>(known - animal->labels.begin());
-    if (known == animal->labels.end()) {
-      animal->labels.push_back(label);
-      animal->columns.push_back({});
-    }
-    const auto k = std::string_view("xyl").find(coordinate.front());
-    require((coordinate == "x" || coordinate == "y" || coordinate == "likelihood") &&
-                animal->columns[i][k] == 0,
+    if (animal == animals.end()) animal = animals.insert(animal, Animal{id, {}});
+    auto& columns = animal->columns.of(header.bodyparts->cells[c]);
+    const std::size_t k = coordinate == "x" ? 0 : coordinate == "y" ? 1 : 2;
+    require((k < 2 || coordinate == "likelihood") && columns[k] == PointColumns::kNone,
             "{}:{}: column {} = '{}': expected x, y and likelihood once for each body part", file,
             header.coords->number, c + 1, coordinate);
-    animal->columns[i][k] = c;
+    columns[k] = c;
   }
   for (const Animal& animal : animals)
-    for (std::size_t i = 0; i < animal.labels.size(); ++i)
-      require(animal.columns[i][0] > 0 && animal.columns[i][1] > 0,
+    for (std::size_t i = 0; i < animal.columns.labels.size(); ++i)
+      require(animal.columns.columns[i][0] != PointColumns::kNone &&
+                  animal.columns.columns[i][1] != PointColumns::kNone,
               "{}:{}: body part '{}': expected columns x and y", file, header.coords->number,
-              animal.labels[i]);
+              animal.columns.labels[i]);
   return animals;
 }
 
@@ -103,23 +94,16 @@ DetectedPeople read_deeplabcut(std::string_view content, const std::string& file
   const std::vector<Animal> animals = find_animals(header, file);
   require(!animals.empty(), "{}:{}: expected columns after the first", file, header.coords->number);
   std::size_t first_column = header.coords->cells.size();
-  for (const Animal& animal : animals) first_column = std::min(first_column, animal.columns[0][0]);
+  for (const Animal& animal : animals)
+    first_column = std::min(first_column, animal.columns.columns[0][0]);
 
   DetectedPeople people;
   for (const Animal& animal : animals) {
-    const LabelMap map(animal.labels, options.labels, file);
+    const LabelMap map(animal.columns.labels, options.labels, file);
     for (std::size_t row = header.rows; row < lines.size(); ++row) {
-      const TextLine& line = lines[row];
-      require(line.cells.size() == header.coords->cells.size(),
-              "{}:{}: {} cells, but the header has {}", file, line.number, line.cells.size(),
-              header.coords->cells.size());
-      std::vector<Point> points(animal.labels.size());
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto [x, y, likelihood] = animal.columns[i];
-        points[i].p_px = {number_in(line, x, file), number_in(line, y, file)};
-        points[i].confidence = likelihood > 0 ? number_in(line, likelihood, file) : 1;
-      }
-      people.push_back({frame_of(line, first_column, file), animal.id, map.parts(points)});
+      check_width(lines[row], *header.coords, file);
+      people.push_back({frame_of(lines[row], first_column, file), animal.id,
+                        map.parts(animal.columns.points(lines[row], file))});
     }
   }
   return people;

@@ -99,8 +99,10 @@ ImportedPerson summary(const Track& track) {
 Detections take_person(DetectedPeople people, const ImportOptions& options,
                        const std::string& file) {
   for (DetectedPerson& person : people)
-    for (Point& point : person.points)
-      if (!point.present() || point.confidence < options.min_confidence) point = {};
+    for (Point& point : person.points) {
+      if (!point.present() || !(point.confidence >= options.min_confidence)) point = {};
+      point.confidence = std::clamp(point.confidence, 0.0, 1.0);
+    }
   std::ranges::stable_sort(people, {}, &DetectedPerson::frame);
   const std::vector<Track> tracks = join(people);
   require(!tracks.empty(), "{}: holds nobody: expected at least one frame with a body part", file);
