@@ -1,6 +1,7 @@
 #include "train/simulation/engine.h"
 
 #include "extract/error.h"
+#include "train/simulation/planar_engine.h"
 #include "train/simulation/runner_layout.h"
 #include "train/simulation/simbody_engine.h"
 
@@ -8,6 +9,7 @@ namespace stride {
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const Model& model,
                                     const EngineOptions& options) {
+  if (name == "planar") return make_planar_engine(model, options);
   if (name == "simbody") return make_simbody_engine(model, options);
   throw Error(fmt::format("engine \"{}\": there is none of this name; engines are {}", name,
                           fmt::join(kEngineNames, ", ")));

@@ -111,7 +111,10 @@ class Engine {
 };
 
 /// The engines that there are; the first is the reference.
-inline constexpr std::array kEngineNames{"simbody"};
+inline constexpr std::array kEngineNames{"simbody", "planar"};
+
+/// The fast one, which agrees with the reference.
+inline constexpr const char* kDefaultEngine = "planar";
 
 /// One of kEngineNames. Throws Error if the engine is not known or cannot represent the model,
 /// with the reason and the advice.
