@@ -1,0 +1,214 @@
+#include "train/train.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "extract/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+#include "tests/train/support/point_mass.h"
+#include "train/checkpoint.h"
+#include "train/curve.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<Environment> point_mass(int) { return std::make_unique<PointMass>(); }
+
+TrainOptions small_run() {
+  TrainOptions options;
+  options.run.decisions = 3000;
+  options.run.environments = 4;
+  options.run.round = 3;
+  options.run.action_repeat = 1;
+  options.run.warm_up = 200;
+  options.run.updates_per_decision = 0.5;
+  options.run.evaluate_every = 500;
+  options.run.evaluation_episodes = 3;
+  options.run.threads = 1;
+  options.observation = {.centre = false, .derived = false, .activations = false};
+  options.agent.actor_hidden = options.agent.critic_hidden = {16, 16};
+  options.agent.batch = 32;
+  options.agent.gamma = 0.95;
+  options.agent.actor_rate = 1e-3;
+  options.agent.tau = 0.01;
+  options.exploration.decay_decisions = 2000;
+  options.replay.capacity = 1500;
+  return options;
+}
+
+Potential some_potential() {
+  Potential potential;
+  potential.source = "test";
+  potential.model = "point mass";
+  potential.period_s = 0.7;
+  potential.weight = 0.01;
+  for (int k = 0; k < 8; ++k) {
+    Keyframe key;
+    key.phase = k / 8.0;
+    key.pose = {.pelvis_height_m = 1,
+                .knee_r = {0.02 * k, -0.4},
+                .foot_r = {0.1, -0.8},
+                .knee_l = {-0.02 * k, -0.4},
+                .foot_l = {0.1, -0.8 + 0.01 * k}};
+    potential.keyframes.push_back(key);
+  }
+  return potential;
+}
+
+std::string trained(const TrainOptions& options, const Potential* potential, const fs::path& run) {
+  make_run_folder(options, potential, run);
+  const std::atomic<bool> stop = false;
+  train(run, point_mass, stop, nullptr);
+  return read_file(run / "curve.csv");
+}
+
+TEST(Train, SolvesAPointMassInSeconds) {
+  TemporaryFolder folder;
+  TrainOptions options = small_run();
+  options.run.decisions = 40000;
+  options.run.evaluation_episodes = 10;
+  options.replay.capacity = 40000;
+  trained(options, nullptr, folder / "run");
+  const Table curve = load_table(folder / "run" / "curve.csv", "curve", 1);
+  const auto distance = curve.column("evaluation_distance_m");
+  EXPECT_LT(curve.rows.front()[distance], -0.2) << "it can do it untrained";
+  EXPECT_GT(curve.rows.back()[distance], -0.08) << "it does not come to the goal";
+  EXPECT_EQ(curve.rows.back()[curve.column("evaluation_falls")], 0);
+}
+
+TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
+  TemporaryFolder folder;
+  const Potential potential = some_potential();
+  TrainOptions options = small_run();
+  const std::string curve = trained(options, &potential, folder / "a");
+  options.run.threads = 3;
+  EXPECT_EQ(trained(options, &potential, folder / "b"), curve);
+  options.run.seed = 2;
+  EXPECT_NE(trained(options, &potential, folder / "c"), curve);
+}
+
+/// Runs in a process of its own that is killed after a while. Returns whether it was still running.
+bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const std::atomic<bool> stop = false;
+    train(run, point_mass, stop, nullptr);
+    ::_exit(0);
+  }
+  std::this_thread::sleep_for(after);
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
+TEST(Train, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
+  TemporaryFolder folder;
+  const Potential potential = some_potential();
+  TrainOptions options = small_run();
+  options.run.decisions = 15000;
+  options.run.checkpoint_s = 0.01;
+  const std::string uninterrupted = trained(options, &potential, folder / "a");
+  make_run_folder(options, &potential, folder / "b");
+  Random random(17);
+  int kills = 0;
+  for (int i = 0; i < 12; ++i)
+    kills += train_and_kill(folder / "b", std::chrono::microseconds(uniform_index(random, 60'000)));
+  EXPECT_GT(kills, 3) << "the run is too short for this test";
+  const std::atomic<bool> stop = false;
+  const TrainSummary summary = train(folder / "b", point_mass, stop, nullptr);
+  EXPECT_TRUE(summary.finished);
+  EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
+  EXPECT_EQ(read_file(folder / "b" / "agent.safetensors"),
+            read_file(folder / "a" / "agent.safetensors"));
+}
+
+TEST(Train, ContinuedWithMoreDecisionsItGivesTheCurveOfALongerRun) {
+  TemporaryFolder folder;
+  TrainOptions options = small_run();
+  const std::string longer = trained(options, nullptr, folder / "a");
+  options.run.decisions = 1700;
+  trained(options, nullptr, folder / "b");
+  options.run.decisions = 3000;
+  write_file_atomically(folder / "b" / "config.toml", to_toml(options, ""));
+  const std::atomic<bool> stop = false;
+  train(folder / "b", point_mass, stop, nullptr);
+  EXPECT_EQ(read_file(folder / "b" / "curve.csv"), longer);
+}
+
+TEST(Train, StoppedItKeepsACheckpointAndContinues) {
+  TemporaryFolder folder;
+  const TrainOptions options = small_run();
+  const std::string uninterrupted = trained(options, nullptr, folder / "a");
+  make_run_folder(options, nullptr, folder / "b");
+  std::atomic<bool> stop = true;
+  EXPECT_FALSE(train(folder / "b", point_mass, stop, nullptr).finished);
+  EXPECT_TRUE(fs::exists(checkpoint_file(folder / "b")));
+  stop = false;
+  EXPECT_TRUE(train(folder / "b", point_mass, stop, nullptr).finished);
+  EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
+}
+
+TEST(Train, DivergenceIsNamedAndTheLastCheckpointStays) {
+  TemporaryFolder folder;
+  TrainOptions options = small_run();
+  options.run.checkpoint_s = 0.01;
+  options.reward.scale = 1e9;
+  options.agent.critic_rate = 1;
+  options.agent.layer_norm = false;
+  make_run_folder(options, nullptr, folder / "run");
+  const std::atomic<bool> stop = false;
+  const TrainSummary summary = train(folder / "run", point_mass, stop, nullptr);
+  EXPECT_THAT(summary.divergence, ::testing::HasSubstr("learning diverged at update"));
+  EXPECT_THAT(summary.divergence, ::testing::HasSubstr("lower agent.critic_rate"));
+}
+
+TEST(Train, ReplayOnDiskDoesNotGrowBeyondItsCapacity) {
+  TemporaryFolder folder;
+  TrainOptions options = small_run();
+  options.run.checkpoint_s = 0.01;
+  options.replay.capacity = 400;
+  trained(options, nullptr, folder / "run");
+  std::int64_t rounds = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "run" / "replay")) {
+    long long from = 0, to = 0;
+    ASSERT_EQ(std::sscanf(entry.path().filename().c_str(), "%lld-%lld", &from, &to), 2);
+    rounds += to - from;
+  }
+  EXPECT_GE(rounds * options.run.environments, 400);
+  EXPECT_LE(rounds * options.run.environments, 1600);
+}
+
+TEST(Train, DamagedCheckpointsAreRefusedWithTheirName) {
+  TemporaryFolder folder;
+  trained(small_run(), nullptr, folder / "run");
+  const fs::path file = checkpoint_file(folder / "run");
+  const std::string content = read_file(file);
+  const std::atomic<bool> stop = false;
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{5}, std::size_t{100}, content.size() / 2, content.size() - 1}) {
+    write_file_atomically(file, content.substr(0, size));
+    EXPECT_ERROR(train(folder / "run", point_mass, stop, nullptr), "checkpoint.safetensors");
+  }
+  write_file_atomically(file, content);
+  fs::remove(fs::directory_iterator(folder / "run" / "replay")->path());
+  EXPECT_ERROR(train(folder / "run", point_mass, stop, nullptr), "missing");
+}
+
+TEST(Train, AFolderThatHoldsARunIsNotOverwritten) {
+  TemporaryFolder folder;
+  make_run_folder(small_run(), nullptr, folder / "run");
+  EXPECT_ERROR(make_run_folder(small_run(), nullptr, folder / "run"), "--resume");
+}
+
+}  // namespace
+}  // namespace stride

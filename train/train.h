@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "shaping/potential.h"
+#include "train/training.h"
+
+namespace stride {
+
+/// How a call of train() went.
+struct TrainSummary {
+  Progress progress;
+  bool finished = false;   // the decisions of the configuration are done
+  std::string divergence;  // why learning was stopped; empty: it was not
+  double distance_m = 0;   // of the last evaluation
+  std::string brief_report() const;
+};
+
+/// Writes what a run needs to begin: config.toml, and potential.json if there is one. Throws Error
+/// where `run` holds a run already.
+void make_run_folder(const TrainOptions& options, const Potential* potential,
+                     const std::filesystem::path& run);
+
+/// What a run folder says. The potential's overrides are applied.
+TrainOptions load_run_options(const std::filesystem::path& run);
+std::optional<Potential> load_run_potential(const TrainOptions& options,
+                                            const std::filesystem::path& run);
+
+/// Trains the run in that folder: from its beginning, or from its checkpoint if it has one, until
+/// its decisions are done or `stop` is set; then a checkpoint is there to continue from.
+///
+/// Writes curve.csv (`# stride curve 1`: a row each evaluation; it depends on the configuration and
+/// its seed alone, not on threads, speed or interruptions), timing.csv (`# stride timing 1`: wall
+/// clock of the same rows), agent.safetensors and best.safetensors (policy.h). `messages` (or
+/// null) gets the progress. A disk that is full is reported, and writing is tried again later.
+TrainSummary train(const std::filesystem::path& run, const EnvironmentFactory& make_environment,
+                   const std::atomic<bool>& stop, std::FILE* messages);
+
+}  // namespace stride
