@@ -4,6 +4,8 @@
 
 namespace stride {
 
-void add_extract_commands(CLI::App&) {}
+void add_track_command(CLI::App& app);
+
+void add_extract_commands(CLI::App& app) { add_track_command(app); }
 
 }  // namespace stride

@@ -1,0 +1,158 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "extract/commands.h"
+#include "extract/error.h"
+#include "extract/export.h"
+#include "extract/file.h"
+#include "extract/import.h"
+#include "extract/keypoints.h"
+#include "extract/overlay.h"
+#include "extract/track.h"
+#include "extract/track_score.h"
+
+namespace stride {
+namespace fs = std::filesystem;
+namespace {
+
+struct Request {
+  fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
+  double slow_motion = 0;  // 0: as the keypoints say
+  TrackOptions track;
+  ImportOptions import;
+};
+
+/// A line on stderr that is rewritten, only where somebody watches.
+void show_progress(int frame, int last) {
+  if (::isatty(STDERR_FILENO))
+    fmt::print(stderr, "\rframe {} of {}{}", frame, last, frame == last ? "\n" : "");
+}
+
+Trajectory marks_of(const Detections& detections, const VideoTimes& times) {
+  Trajectory marks;
+  for (const ImportedFrame& imported : detections.frames) {
+    TrajectoryFrame& frame = marks.frames.emplace_back();
+    frame.frame = imported.frame;
+    frame.points = imported.points;
+    if (imported.frame < static_cast<int>(times.times_s.size()))
+      frame.time_s = times.times_s[static_cast<std::size_t>(imported.frame)];
+  }
+  return marks;
+}
+
+/// The marks of the file that was asked for, and the times of the frames that they count.
+struct Marked {
+  Trajectory marks;
+  VideoTimes times;
+};
+
+Marked read_marks(const Request& request) {
+  Marked marked;
+  const std::string video = request.video.filename().string();
+  if (!request.import_from.empty()) {
+    marked.times = video_times(request.video, request.slow_motion > 0 ? request.slow_motion : 1);
+    ImportOptions options = request.import;
+    if (options.rate_hz == 0) options.rate_hz = marked.times.info.rate_hz;
+    const Detections detections = import_points(request.import_from, options);
+    fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n", request.import_from.string(),
+               detections.frames.size(), detections.format, detections.person,
+               detections.people.size());
+    marked.marks = marks_of(detections, marked.times);
+    marked.marks.video_sha256 = sha256_of_file(request.video);
+    marked.marks.width_px = marked.times.info.width_px;
+    marked.marks.height_px = marked.times.info.height_px;
+  } else {
+    const fs::path file =
+        request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
+    require(fs::exists(request.video), "{}: no such video", request.video.string());
+    require(fs::exists(file),
+            "{}: no such file; click points with 'stride annotate {}', or give --import",
+            file.string(), request.video.string());
+    Keypoints keypoints = load_keypoints(file);
+    check_belongs_to(keypoints, request.video);
+    if (request.slow_motion > 0) keypoints.slow_motion = request.slow_motion;
+    marked.times = video_times(request.video, keypoints.slow_motion);
+    marked.marks = marks_of(keypoints);
+  }
+  marked.marks.video = video;
+  return marked;
+}
+
+void report(const Tracked& tracked, const VideoTimes& times) {
+  const GaitKernel& legs = tracked.summary.prior.legs;
+  const Trajectory& t = tracked.trajectory;
+  fmt::print(stderr,
+             "{} marked frames, frames {}–{} tracked\n"
+             "stride period {:.3f} s, noise of the marks {:.1f} px, flow believed on {:.0f} % of "
+             "the unmarked points\n",
+             tracked.summary.marked_frames, t.frames.front().frame, t.frames.back().frame,
+             legs.period_s, legs.noise_px, 100 * tracked.summary.believed);
+  if (!times.shortfall.empty()) fmt::print(stderr, "warning: {}\n", times.shortfall);
+}
+
+void run(Request request) {
+  if (!request.score.empty()) {
+    fmt::print("{}", table_of(score_tracking(request.video, request.score)));
+    return;
+  }
+  const Marked marked = read_marks(request);
+  std::optional<Trajectory> prior;
+  if (!request.prior.empty()) prior = load_trajectory(request.prior);
+  request.track.prior = prior ? &*prior : nullptr;
+  request.track.progress = show_progress;
+  Video video(request.video);
+  const Tracked tracked = track(
+      marked.marks, marked.times.times_s, [&](VideoFrame& frame) { return video.read(frame); },
+      request.track);
+  report(tracked, marked.times);
+
+  if (!request.overlay.empty()) {
+    write_overlay(request.video, tracked.trajectory, request.overlay);
+    fmt::print("{}\n", request.overlay.string());
+  }
+  if (!request.export_to.empty()) {
+    export_points(tracked.trajectory, request.export_to);
+    fmt::print("{}\n", request.export_to.string());
+    if (request.out.empty()) return;
+  }
+  const fs::path out = request.out.empty()
+                           ? fs::path(request.video).replace_extension(".trajectory.csv")
+                           : request.out;
+  save(tracked.trajectory, out);
+  fmt::print("{}\n", out.string());
+}
+
+}  // namespace
+
+void add_track_command(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(
+      "track", "propagate clicks, or a pose model's points, through every frame of a video");
+  command.add_option("VIDEO", request->video, "the video")->required();
+  command.add_option("--keypoints", request->keypoints,
+                     "clicks (default: NAME.keypoints.json beside the video)");
+  command.add_option("--import", request->import_from,
+                     "points of another program instead of clicks: a file or a folder");
+  add_import_options(command, request->import);
+  command.add_option("-o,--out", request->out,
+                     "trajectory to write (default: NAME.trajectory.csv beside the video, unless "
+                     "--export says otherwise)");
+  command.add_option("--export", request->export_to,
+                     "write for other programs: .csv, .json, .trc, or a folder of OpenPose's");
+  command.add_option("--overlay", request->overlay, "draw the points on the video: an .mp4");
+  command.add_option("--prior", request->prior,
+                     "a trajectory in pixels that predicts the motion, as of a fitted body model");
+  command.add_option("--slow-motion", request->slow_motion,
+                     "seconds of video a second of the runner (default: as the clicks say)");
+  command.add_flag("--keep-marks", request->track.keep_marks,
+                   "go exactly through every click instead of averaging their noise out");
+  command.add_flag("!--no-flow", request->track.flow, "do not look at the picture between clicks");
+  command.add_option("--score", request->score,
+                     "a CSV of true points: track from clicks made of it, print the accuracy");
+  command.callback([request] { run(*request); });
+}
+
+}  // namespace stride
