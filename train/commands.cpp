@@ -4,6 +4,8 @@
 
 namespace stride {
 
-void add_train_commands(CLI::App&) {}
+void add_simulate_command(CLI::App& app);
+
+void add_train_commands(CLI::App& app) { add_simulate_command(app); }
 
 }  // namespace stride

@@ -43,8 +43,8 @@ class MersonIntegrator {
       attempt(y, h, rate);
       report.evaluations += 4;
       const double error = error_of(error_) / options.accuracy;
-      const bool finite = std::isfinite(error);
-      if (options.fixed_step ? finite : error <= 1) {
+      const bool finite = std::isfinite(error) && is_finite(next_);
+      if (finite && (options.fixed_step || error <= 1)) {
         y = next_;
         left = last ? 0 : left - h;
         have_first = false;
@@ -56,9 +56,9 @@ class MersonIntegrator {
         ++report.rejected;
       }
       const double factor = finite ? 0.9 * std::pow(std::max(error, 1e-10), -0.25) : 0.1;
-      const double proposal = h * std::clamp(factor, 0.1, error <= 1 ? 5.0 : 0.9);
+      const double proposal = h * std::clamp(factor, 0.1, finite && error <= 1 ? 5.0 : 0.9);
       // A step cut short by the end of the interval says nothing against the longer one.
-      step_s_ = error <= 1 && h < wanted ? std::max(wanted, proposal) : proposal;
+      step_s_ = finite && error <= 1 && h < wanted ? std::max(wanted, proposal) : proposal;
     }
     return report;
   }
@@ -70,6 +70,10 @@ class MersonIntegrator {
     report.ok = false;
     report.failure = why;
     return report;
+  }
+
+  static bool is_finite(const Vector& y) {
+    return std::all_of(y.begin(), y.end(), [](double each) { return std::isfinite(each); });
   }
 
   template <typename Rate>

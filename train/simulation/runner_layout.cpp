@@ -42,4 +42,19 @@ RunnerLayout runner_layout(const Model& model) {
   return layout;
 }
 
+Excitations mirrored(const Excitations& excitations) {
+  Excitations result = excitations;
+  std::rotate(result.begin(), result.begin() + kMuscles / 2, result.end());
+  return result;
+}
+
+RunnerState mirrored(const RunnerState& state) {
+  RunnerState result = state;
+  std::swap_ranges(result.q.begin() + 3, result.q.begin() + 6, result.q.begin() + 6);
+  std::swap_ranges(result.u.begin() + 3, result.u.begin() + 6, result.u.begin() + 6);
+  result.activation = mirrored(state.activation);
+  result.fiber_length_m = mirrored(state.fiber_length_m);
+  return result;
+}
+
 }  // namespace stride

@@ -24,4 +24,8 @@ const std::array<std::string, kMuscles>& muscle_names();
 /// ones that are not locked.
 RunnerLayout runner_layout(const Model& model);
 
+/// The same in the mirror: right and left legs exchanged.
+RunnerState mirrored(const RunnerState& state);
+Excitations mirrored(const Excitations& excitations);
+
 }  // namespace stride

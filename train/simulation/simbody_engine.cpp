@@ -345,7 +345,6 @@ AdvanceReport SimbodyEngine::advance(const Excitations& excitations, double dura
     for (int i = 0; i < kStates; ++i) {
       const double unit = i < kFiber ? 1 : muscles_[i - kFiber].law.optimal_length_m;
       largest = std::max(largest, std::abs(difference[i]) / unit);
-      if (!std::isfinite(difference[i])) return difference[i];
     }
     return largest;
   };
