@@ -5,7 +5,11 @@
 namespace stride {
 
 void add_simulate_command(CLI::App& app);
+void add_train_command(CLI::App& app);
 
-void add_train_commands(CLI::App& app) { add_simulate_command(app); }
+void add_train_commands(CLI::App& app) {
+  add_simulate_command(app);
+  add_train_command(app);
+}
 
 }  // namespace stride

@@ -330,10 +330,14 @@ void make_run_folder(const TrainOptions& options, const Potential* potential, co
     written.shaping.potential = "potential.json";
     save(*potential, run / written.shaping.potential);
   }
-  write_file_atomically(run / "config.toml",
-                        to_toml(written,
-                                "# stride config 1\n# Everything that this run uses; SI "
-                                "units. Reads back with --config.\n"));
+  write_run_options(written, run);
+}
+
+void write_run_options(const TrainOptions& options, const fs::path& run) {
+  constexpr const char* kHeading =
+      "# stride config 1, written by stride " STRIDE_VERSION
+      "\n# Everything that this run uses, in SI units. It reads back with --config.\n";
+  write_file_atomically(run / "config.toml", to_toml(options, kHeading));
 }
 
 TrainOptions load_run_options(const fs::path& run) {

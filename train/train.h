@@ -24,6 +24,9 @@ struct TrainSummary {
 void make_run_folder(const TrainOptions& options, const Potential* potential,
                      const std::filesystem::path& run);
 
+/// Replaces RUN/config.toml.
+void write_run_options(const TrainOptions& options, const std::filesystem::path& run);
+
 /// What a run folder says. The potential's overrides are applied.
 TrainOptions load_run_options(const std::filesystem::path& run);
 std::optional<Potential> load_run_potential(const TrainOptions& options,
