@@ -23,6 +23,151 @@ Clip human() {
   return clip;
 }
 
+/// A camera that shows so many pixels a metre of the runner's plane from that far.
+Camera camera(double pixels_per_metre, double distance_m) {
+  Camera camera;
+  camera.distance_m = distance_m;
+  camera.focal_px = pixels_per_metre * distance_m;
+  return camera;
+}
+
+Clip walk_clip() {
+  Clip clip;
+  clip.name = "walk";
+  clip.description = "a man walks past a wall, the camera follows";
+  clip.character = "veteran";
+  clip.scene = "street";
+  clip.seed = 21;
+  clip.frames = 152;
+  clip.proportions.thigh = 0.415;
+  clip.proportions.shank = 0.420;
+  clip.gait = standing(walk(), clip.proportions, 0);
+  clip.first_phase = 0.2;
+  clip.deviation_rad = 0.3 * std::numbers::pi / 180;
+  clip.camera = camera(130, 9);
+  clip.camera.roll_rad = -0.012;
+  return clip;
+}
+
+Clip left_clip() {
+  Clip clip;
+  clip.name = "left";
+  clip.description = "a woman runs to the left, the camera follows late";
+  clip.character = "woman";
+  clip.scene = "street";
+  clip.seed = 31;
+  clip.proportions.thigh = 0.398;
+  clip.proportions.shank = 0.392;
+  clip.proportions.trunk = 0.53;
+  clip.proportions.toe_forward = 0.185;
+  clip.proportions.hip_half_width = 0.09;
+  clip.proportions.shoulder_half_width = 0.165;
+  clip.proportions.upper_arm = 0.28;
+  clip.proportions.forearm = 0.235;
+  clip.gait = rajagopal_run();
+  clip.first_phase = 0.1;
+  clip.deviation_rad = 0.4 * std::numbers::pi / 180;
+  clip.to_left = true;
+  clip.camera = camera(126, 11);
+  clip.camera.roll_rad = 0.015;
+  clip.sway_m = 0.22;
+  clip.zoom = -0.015;
+  return clip;
+}
+
+Clip treadmill_clip() {
+  Clip clip;
+  clip.name = "treadmill";
+  clip.description = "a man runs on a treadmill, the camera stands";
+  clip.scene = "gym";
+  clip.seed = 41;
+  clip.rate_hz = 60;
+  clip.frames = 180;
+  clip.gait = hamner_run();
+  clip.first_phase = 0.4;
+  clip.deviation_rad = 0.4 * std::numbers::pi / 180;
+  clip.treadmill = true;
+  clip.camera_follows = false;
+  clip.camera = camera(140, 8);
+  clip.camera.center_v_px = 175;
+  clip.camera.height_m = 1.05;
+  return clip;
+}
+
+Clip small_clip() {
+  Clip clip;
+  clip.name = "small";
+  clip.description = "a woman jogs on a track, few pixels and 24 frames a second";
+  clip.character = "woman";
+  clip.seed = 51;
+  clip.width_px = 320;
+  clip.height_px = 180;
+  clip.rate_hz = 24;
+  clip.frames = 96;
+  clip.proportions.thigh = 0.41;
+  clip.proportions.shank = 0.40;
+  clip.gait = standing(jog(), clip.proportions, 0.03);
+  clip.deviation_rad = 0.4 * std::numbers::pi / 180;
+  clip.camera = camera(64, 14);
+  clip.camera.center_u_px = 160;
+  clip.camera.center_v_px = 82;
+  clip.camera.roll_rad = -0.02;
+  clip.shutter = 0.5;
+  clip.click_sd_px = 0.75;
+  return clip;
+}
+
+Clip game_clip() {
+  Clip clip;
+  clip.name = "game";
+  clip.description = "an armoured hero of a game runs under a planet";
+  clip.character = "game";
+  clip.scene = "arena";
+  clip.seed = 61;
+  clip.proportions.thigh = 0.46;
+  clip.proportions.shank = 0.43;
+  clip.proportions.trunk = 0.60;
+  clip.proportions.neck = 0.155;
+  clip.proportions.toe_forward = 0.215;
+  clip.proportions.sole_down = 0.10;
+  clip.proportions.shoulder_half_width = 0.24;
+  clip.gait = standing(game_run(), clip.proportions, 0.09);
+  clip.camera = camera(122, 12);
+  clip.camera.center_v_px = 160;
+  clip.shutter = 0.12;
+  clip.noise_grey = 0;
+  clip.sway_m = 0.05;
+  return clip;
+}
+
+Clip cartoon_clip() {
+  Clip clip;
+  clip.name = "cartoon";
+  clip.description = "a drawn boy with a big head runs through a meadow";
+  clip.character = "cartoon";
+  clip.scene = "meadow";
+  clip.seed = 71;
+  clip.rate_hz = 24;
+  clip.frames = 72;
+  clip.proportions.thigh = 0.27;
+  clip.proportions.shank = 0.25;
+  clip.proportions.trunk = 0.42;
+  clip.proportions.neck = 0.25;
+  clip.proportions.toe_forward = 0.20;
+  clip.proportions.sole_down = 0.085;
+  clip.proportions.upper_arm = 0.21;
+  clip.proportions.forearm = 0.19;
+  clip.proportions.shoulder_half_width = 0.12;
+  clip.gait = standing(cartoon_run(), clip.proportions, 0.10);
+  clip.camera = camera(165, 14);
+  clip.camera.center_v_px = 140;
+  clip.shutter = 0;
+  clip.noise_grey = 0;
+  clip.vignette = 0;
+  clip.sway_m = 0.04;
+  return clip;
+}
+
 }  // namespace
 
 Motion::Motion(const Clip& clip) : clip_(clip), grounding_(ground(clip.gait, clip.proportions)) {
@@ -57,8 +202,13 @@ Skeleton Motion::skeleton(double time_s) const {
   }
   const double height = grounding_.mean_height_m + clip_.gait.pelvis_height_m(phase) -
                         clip_.gait.pelvis_height_m.mean;
-  return pose(clip_.gait, clip_.proportions, phase, grounding_.speed_m_s * time_s, height,
-              deviation);
+  // On a belt nobody keeps the place to the centimetre.
+  const double x = clip_.treadmill ? 0.05 * slow(sway_x_, time_s) : grounding_.speed_m_s * time_s;
+  return pose(clip_.gait, clip_.proportions, phase, x, height, deviation);
+}
+
+double Motion::belt_m(double time_s) const {
+  return clip_.treadmill ? grounding_.speed_m_s * time_s : 0;
 }
 
 Camera Motion::camera(double time_s) const {
@@ -70,11 +220,15 @@ Camera Motion::camera(double time_s) const {
     camera.x_m += grounding_.speed_m_s * time_s + clip_.sway_m * slow(sway_x_, time_s);
   const double duration_s = clip_.frames / clip_.rate_hz;
   camera.focal_px *= 1 + clip_.zoom * (time_s / duration_s - 0.5);
-  camera.center_v_px += 0.15 * clip_.sway_m / camera.metres_per_pixel() * slow(sway_y_, time_s);
+  if (clip_.camera_follows)
+    camera.center_v_px += 0.15 * clip_.sway_m / camera.metres_per_pixel() * slow(sway_y_, time_s);
   return camera;
 }
 
-std::vector<Clip> clips() { return {human()}; }
+std::vector<Clip> clips() {
+  return {human(),          game_clip(), cartoon_clip(), walk_clip(),
+          treadmill_clip(), left_clip(), small_clip()};
+}
 
 Clip clip(std::string_view name) {
   std::string names;

@@ -13,7 +13,8 @@ namespace stride::videos {
 /// Everything that makes a clip; the same clip gives the same frames.
 struct Clip {
   std::string name, description;
-  std::string character = "human", scene = "track";  // or "markers" and "dark", for tests
+  std::string character = "man";  // man, woman, boy, game, cartoon; markers: for tests
+  std::string scene = "track";    // track, street, gym, arena, meadow; dark: for tests
   std::uint64_t seed = 1;
   int width_px = 640, height_px = 360;
   double rate_hz = 30;
@@ -24,16 +25,18 @@ struct Clip {
   double first_phase = 0;
   double deviation_rad = 0;  // rms of every joint from the mean stride, slow and random
   bool to_left = false;
+  bool treadmill = false;  // the runner stays, the belt runs
 
   Camera camera;  // at the start; x_m relative to the runner if it follows
   bool camera_follows = true;
   double sway_m = 0.10;  // how far the camera lags and leads
   double zoom = 0;       // growth of the focal length over the clip
 
-  double shutter = 0.35;    // open part of the time between frames
-  int samples = 14;         // a pixel: through the shutter's time and the pixel's area
-  double noise_grey = 2.4;  // of the sensor, of 255
-  double vignette = 0.09;   // darkening toward the corners
+  double shutter = 0.35;     // open part of the time between frames
+  int samples = 14;          // a pixel: through the shutter's time and the pixel's area
+  double noise_grey = 2.4;   // of the sensor, of 255
+  double click_sd_px = 1.5;  // of a person's hand
+  double vignette = 0.09;    // darkening toward the corners
 };
 
 /// A clip with what follows from it.
@@ -44,6 +47,7 @@ class Motion {
   const Clip& clip() const { return clip_; }
   double speed_m_s() const { return grounding_.speed_m_s; }
   Skeleton skeleton(double time_s) const;
+  double belt_m(double time_s) const;  // how far the belt of the treadmill has run
   Camera camera(double time_s) const;
 
  private:

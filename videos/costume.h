@@ -16,10 +16,24 @@ class Costume {
   virtual ~Costume() = default;
   virtual std::vector<Patch> dress(const Skeleton& skeleton, const Proportions& proportions,
                                    bool from_left) const = 0;
-  virtual double outline_m() const { return 0; }
 };
 
-std::unique_ptr<Costume> human_costume(std::uint64_t seed);
+/// A runner in shorts and shirt.
+struct HumanLook {
+  Colour skin = rgb(214, 162, 128), hair = rgb(62, 40, 28);
+  Colour shirt = rgb(226, 92, 38), shirt_band = rgb(245, 238, 225);
+  Colour shorts = rgb(38, 52, 96), stripe = rgb(222, 226, 236);
+  Colour sock = rgb(232, 232, 228), shoe = rgb(60, 190, 90);
+  Colour sole = rgb(240, 240, 236), lace = rgb(24, 26, 30);
+  bool ponytail = false;
+};
+std::unique_ptr<Costume> human_costume(std::uint64_t seed, const HumanLook& look = {});
+
+/// An armoured hero, plates that shine.
+std::unique_ptr<Costume> game_costume(std::uint64_t seed);
+
+/// A drawn boy: flat colours, outlines, both legs alike.
+std::unique_ptr<Costume> cartoon_costume();
 
 /// A disc at every body part and nothing else, to find the truth in a picture.
 std::unique_ptr<Costume> marker_costume();

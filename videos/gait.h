@@ -27,12 +27,17 @@ struct Gait {
   // What the sources do not tell, by eye.
   Harmonics trunk_lean_deg;           // of the line hips → shoulders, forward positive
   Harmonics shoulder_deg, elbow_deg;  // of the right arm, flexion positive
-  double shoulder_swing_m = 0.045;    // fore and aft, by the rotation of the trunk
+  double squash = 0;  // the trunk is longer in flight and shorter in stance by this part
+  double shoulder_swing_m = 0.045;  // fore and aft, by the rotation of the trunk
   double hip_swing_m = 0,
          hip_drop_m = 0;  // of the right hip, by the rotation and list of the pelvis
 };
 
-/// Rajagopal et al. 2016, run of subject 1 on a treadmill at 3.8 m/s.
-Gait rajagopal_run();
+Gait rajagopal_run();  // a man at 3.8 m/s
+Gait hamner_run();     // a man at 3.96 m/s
+Gait jog();            // 2.8 m/s
+Gait walk();           // 1.14 m/s
+Gait game_run();       // high knees, long flight
+Gait cartoon_run();    // the man's run, exaggerated
 
 }  // namespace stride::videos

@@ -2,23 +2,16 @@
 
 #include "videos/colour.h"
 #include "videos/costume.h"
+#include "videos/limb.h"
 
 namespace stride::videos {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-const Colour kSkin = rgb(214, 162, 128), kHair = rgb(62, 40, 28), kShirt = rgb(226, 92, 38),
-             kShirtBand = rgb(245, 238, 225), kShorts = rgb(38, 52, 96),
-             kStripe = rgb(222, 226, 236), kSock = rgb(232, 232, 228), kShoe = rgb(60, 190, 90),
-             kSole = rgb(240, 240, 236), kLace = rgb(24, 26, 30);
-
-Vector2d flat(const Vector3d& p) { return {p.x(), p.y()}; }
 
 class Human final : public Costume {
  public:
-  explicit Human(std::uint64_t seed) : grain_(seed) {}
+  Human(std::uint64_t seed, HumanLook look) : grain_(seed), look_(std::move(look)) {}
 
   std::vector<Patch> dress(const Skeleton& k, const Proportions& p, bool from_left) const override {
     const int near = from_left ? 1 : 0, far = 1 - near;
@@ -27,6 +20,7 @@ class Human final : public Costume {
     leg(k, p, far, 0.62, patches);
     pelvis(k, patches);
     leg(k, p, near, 1, patches);
+    if (look_.ponytail) ponytail(k, patches);
     neck_and_head(k, patches);
     shirt(k, p, patches);
     arm(k, p, near, 1, patches);
@@ -34,18 +28,9 @@ class Human final : public Costume {
   }
 
  private:
-  static Patch hanging(const Vector3d& joint, double angle, std::vector<Station> stations) {
-    Patch patch;
-    patch.origin = flat(joint);
-    patch.axis = {std::sin(angle), -std::cos(angle)};
-    patch.front = {std::cos(angle), std::sin(angle)};
-    patch.z_m = joint.z();
-    patch.stations = std::move(stations);
-    return patch;
-  }
-
   Colour skin(double s, double across, double seed) const {
-    return kSkin * static_cast<float>(1 + 0.15 * grain_.rough(35 * s + seed, 5 * across + seed));
+    return look_.skin *
+           static_cast<float>(1 + 0.15 * grain_.rough(35 * s + seed, 5 * across + seed));
   }
 
   /// Cloth that hangs in folds.
@@ -71,8 +56,8 @@ class Human final : public Costume {
       colour *= static_cast<float>(1 - 0.22 * band(s, -0.02, 0.045, 0.05) * step(across, 0.3, 0.5));
       const double sock = step(s, end - 0.105, 0.004);
       const Colour knit =
-          kSock * static_cast<float>(1 - 0.20 * band(s, end - 0.095, end - 0.082, 0.006) +
-                                     0.10 * grain_(140 * s, 8 * across));
+          look_.sock * static_cast<float>(1 - 0.20 * band(s, end - 0.095, end - 0.082, 0.006) +
+                                          0.10 * grain_(140 * s, 8 * across));
       return mixed(colour, knit, sock);
     };
     Patch shoe = this->shoe(k, p, side);
@@ -92,9 +77,9 @@ class Human final : public Costume {
         {{-0.03, 0.098, 0.112}, {0.06, 0.101, 0.106}, {0.15, 0.098, 0.094}, {0.235, 0.099, 0.092}});
     shorts.round_end = false;
     shorts.colour = [=, this](double s, double across) {
-      Colour colour = cloth(kShorts, s, across, seed + 13);
-      colour = mixed(colour, kStripe, band(across, -0.22, 0.06, 0.06));
-      return mixed(colour, kShorts * 0.55F, step(s, 0.222, 0.006));
+      Colour colour = cloth(look_.shorts, s, across, seed + 13);
+      colour = mixed(colour, look_.stripe, band(across, -0.22, 0.06, 0.06));
+      return mixed(colour, look_.shorts * 0.55F, step(s, 0.222, 0.006));
     };
     for (Patch* patch : {&shank, &shoe, &thigh, &shorts}) {
       patch->light = light;
@@ -103,30 +88,27 @@ class Human final : public Costume {
   }
 
   Patch shoe(const Skeleton& k, const Proportions& p, int side) const {
-    const double angle = k.foot_angle[side];
-    Patch shoe;
-    shoe.origin = flat(k.ankle[side]);
-    shoe.axis = {std::cos(angle), std::sin(angle)};
-    shoe.front = {-std::sin(angle), std::cos(angle)};
-    shoe.z_m = k.ankle[side].z();
     const double toe = p.toe_forward, sole = p.sole_down;
-    shoe.stations = {{-p.heel_back, -0.005, 0.9 * sole},
-                     {-0.85 * p.heel_back, 0.022, sole},
-                     {-0.04, 0.034, sole},
-                     {0.02, 0.034, sole},
-                     {0.05, 0.010, sole},
-                     {0.10, -0.022, sole},
-                     {0.8 * toe, -0.040, 0.96 * sole},
-                     {toe - 0.012, -0.047, 0.87 * sole}};
+    Patch shoe = along_foot(k.ankle[side], k.foot_angle[side],
+                            {{-p.heel_back, -0.005, 0.9 * sole},
+                             {-0.85 * p.heel_back, 0.022, sole},
+                             {-0.04, 0.034, sole},
+                             {0.02, 0.034, sole},
+                             {0.05, 0.010, sole},
+                             {0.10, -0.022, sole},
+                             {0.8 * toe, -0.040, 0.96 * sole},
+                             {toe - 0.012, -0.047, 0.87 * sole}});
     shoe.round_start = false;
     shoe.gloss = 0.10;
     shoe.colour = [=, this](double s, double across) {
-      Colour colour = kShoe * static_cast<float>(1 + 0.15 * grain_(60 * s, 6 * across));
+      Colour colour = look_.shoe * static_cast<float>(1 + 0.15 * grain_(60 * s, 6 * across));
       const double slanted = s - 0.02 * across;
-      colour = mixed(colour, kLace, band(slanted, 0.018, 0.034, 0.006) * step(across, -0.5, 0.1));
-      colour = mixed(colour, kLace, band(slanted, 0.054, 0.070, 0.006) * step(across, -0.5, 0.1));
-      colour = mixed(colour, kLace, step(across, 0.72, 0.1) * band(s, 0.03, 0.11, 0.01));
-      return mixed(kSole, colour, step(across, -0.52, 0.08));
+      colour =
+          mixed(colour, look_.lace, band(slanted, 0.018, 0.034, 0.006) * step(across, -0.5, 0.1));
+      colour =
+          mixed(colour, look_.lace, band(slanted, 0.054, 0.070, 0.006) * step(across, -0.5, 0.1));
+      colour = mixed(colour, look_.lace, step(across, 0.72, 0.1) * band(s, 0.03, 0.11, 0.01));
+      return mixed(look_.sole, colour, step(across, -0.52, 0.08));
     };
     return shoe;
   }
@@ -136,26 +118,15 @@ class Human final : public Costume {
         k.pelvis, -0.6 * k.trunk_lean,
         {{-0.16, 0.095, 0.100}, {-0.05, 0.104, 0.124}, {0.04, 0.100, 0.125}, {0.08, 0.085, 0.105}});
     hips.light = 0.92;
-    hips.colour = [this](double s, double across) { return cloth(kShorts, s, across, 77); };
+    hips.colour = [this](double s, double across) { return cloth(look_.shorts, s, across, 77); };
     out.push_back(std::move(hips));
-  }
-
-  Patch upward(const Skeleton& k, const Vector3d& from, double lean,
-               std::vector<Station> stations) const {
-    Patch patch;
-    patch.origin = flat(from);
-    patch.axis = {std::sin(lean), std::cos(lean)};
-    patch.front = {std::cos(lean), -std::sin(lean)};
-    patch.z_m = k.pelvis.z();
-    patch.stations = std::move(stations);
-    return patch;
   }
 
   void shirt(const Skeleton& k, const Proportions& p, std::vector<Patch>& out) const {
     const double top = p.trunk;
     // The hem swings after the hips.
     const double sway = 0.008 * std::sin(4 * M_PI * k.phase + 0.8);
-    Patch shirt = upward(k, k.pelvis, k.trunk_lean,
+    Patch shirt = upward(k.pelvis, k.trunk_lean,
                          {{0.045, 0.108 + sway, 0.126 - sway},
                           {0.12, 0.106, 0.112},
                           {0.22, 0.106, 0.100},
@@ -165,11 +136,11 @@ class Human final : public Costume {
                           {top - 0.01, 0.060, 0.078}});
     shirt.round_start = false;
     shirt.colour = [=, this](double s, double across) {
-      Colour colour = cloth(kShirt, s, across, 131);
+      Colour colour = cloth(look_.shirt, s, across, 131);
       const double wave = s + 0.012 * across;
-      colour = mixed(colour, kShirtBand, band(wave, 0.31, 0.365, 0.006));
+      colour = mixed(colour, look_.shirt_band, band(wave, 0.31, 0.365, 0.006));
       colour = mixed(colour, rgb(30, 34, 60), band(wave, 0.373, 0.385, 0.005));
-      colour = mixed(colour, kShirt * 0.6F, step(0.06 - s, 0, 0.006));
+      colour = mixed(colour, look_.shirt * 0.6F, step(0.06 - s, 0, 0.006));
       return colour;
     };
     out.push_back(std::move(shirt));
@@ -177,13 +148,13 @@ class Human final : public Costume {
 
   void neck_and_head(const Skeleton& k, std::vector<Patch>& out) const {
     const double lean = std::atan2(k.head.x() - k.shoulders.x(), k.head.y() - k.shoulders.y());
-    Patch neck = upward(k, k.shoulders, lean,
+    Patch neck = upward(k.shoulders, lean,
                         {{-0.04, 0.055, 0.066}, {0.03, 0.050, 0.056}, {0.10, 0.050, 0.054}});
     neck.light = 0.86;
     neck.colour = [this](double s, double across) { return skin(s, across, 51); };
     out.push_back(std::move(neck));
 
-    Patch head = upward(k, k.head, k.head_pitch,
+    Patch head = upward(k.head, k.head_pitch,
                         {{-0.122, 0.070, -0.020},
                          {-0.112, 0.082, 0.000},
                          {-0.090, 0.088, 0.030},
@@ -202,17 +173,33 @@ class Human final : public Costume {
                      0.7 * band(s, -0.078, -0.070, 0.006) * step(across, 0.72, 0.1));
       const double eye = band(s, 0.008, 0.024, 0.008) * band(across, 0.60, 0.80, 0.08);
       colour = mixed(colour, rgb(40, 30, 30), 0.85 * eye);
-      colour =
-          mixed(colour, kHair, 0.8 * band(s, 0.032, 0.040, 0.006) * band(across, 0.5, 0.9, 0.1));
+      colour = mixed(colour, look_.hair,
+                     0.8 * band(s, 0.032, 0.040, 0.006) * band(across, 0.5, 0.9, 0.1));
       const double ear = band(s, -0.035, 0.025, 0.012) * band(across, -0.28, 0.0, 0.08);
-      colour = mixed(colour, kSkin * 0.72F, 0.7 * ear);
+      colour = mixed(colour, look_.skin * 0.72F, 0.7 * ear);
       const double hairline =
           0.058 - 0.05 * std::max(0.0, 0.45 - across) - 0.02 * std::max(0.0, 0.1 - across);
       const Colour hair =
-          kHair * static_cast<float>(1 + 0.9 * grain_.rough(50 * s, 14 * across + 3));
+          look_.hair * static_cast<float>(1 + 0.9 * grain_.rough(50 * s, 14 * across + 3));
       return mixed(colour, hair, step(s, hairline, 0.016) * (1 - 0.9 * ear));
     };
     out.push_back(std::move(head));
+  }
+
+  /// It swings back at every landing.
+  void ponytail(const Skeleton& k, std::vector<Patch>& out) const {
+    const double swing = -0.75 + 0.35 * std::sin(4 * M_PI * k.phase);
+    Vector3d tie = k.head + Vector3d(-0.085, 0.035, 0);
+    Patch tail = hanging(tie, swing,
+                         {{0, 0.018, 0.018},
+                          {0.05, 0.034, 0.034},
+                          {0.14, 0.040, 0.036},
+                          {0.22, 0.024, 0.022},
+                          {0.27, 0.006, 0.006}});
+    tail.colour = [this](double s, double across) {
+      return lit(look_.hair, 1 + 0.8 * grain_.rough(14 * s, 16 * across + 3));
+    };
+    out.push_back(std::move(tail));
   }
 
   void arm(const Skeleton& k, const Proportions& p, int side, double light,
@@ -244,8 +231,8 @@ class Human final : public Costume {
                            {{-0.02, 0.056, 0.062}, {0.06, 0.064, 0.063}, {0.145, 0.062, 0.058}});
     sleeve.round_end = false;
     sleeve.colour = [=, this](double s, double across) {
-      Colour colour = cloth(kShirt, s, across, seed + 17);
-      return mixed(colour, kShirtBand, step(s, 0.125, 0.005));
+      Colour colour = cloth(look_.shirt, s, across, seed + 17);
+      return mixed(colour, look_.shirt_band, step(s, 0.125, 0.005));
     };
     for (Patch* patch : {&upper, &forearm, &hand, &sleeve}) {
       patch->light = light;
@@ -254,10 +241,13 @@ class Human final : public Costume {
   }
 
   Texture grain_;
+  HumanLook look_;
 };
 
 }  // namespace
 
-std::unique_ptr<Costume> human_costume(std::uint64_t seed) { return std::make_unique<Human>(seed); }
+std::unique_ptr<Costume> human_costume(std::uint64_t seed, const HumanLook& look) {
+  return std::make_unique<Human>(seed, look);
+}
 
 }  // namespace stride::videos

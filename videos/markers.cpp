@@ -26,7 +26,7 @@ class Markers final : public Costume {
 };
 
 class Dark final : public Scene {
-  Colour ground(double, double) const override { return {}; }
+  Colour ground(double, double, double) const override { return {}; }
   double wall_z_m() const override { return -6; }
   double wall_height_m() const override { return 1; }
   Colour wall(double, double) const override { return {}; }

@@ -103,11 +103,12 @@ cv::Rect reach(const Patch& patch, const Profile& profile, const Camera& camera,
   return box & cv::Rect(0, 0, image.cols, image.rows);
 }
 
-}  // namespace
+const Colour kOutline(0.10F, 0.08F, 0.09F);
 
-void paint(const Patch& patch, const Camera& camera, double du, double dv, cv::Mat& image,
-           double outline_m, const Colour& outline) {
-  const Profile profile(patch, outline_m);
+/// `widened_m` > 0: the outline alone.
+void paint_one(const Patch& patch, const Camera& camera, double du, double dv, cv::Mat& image,
+               double widened_m) {
+  const Profile profile(patch, widened_m);
   const cv::Rect box = reach(patch, profile, camera, image);
   // (s, t) is affine in (u, v): three points give it.
   const auto local = [&](double u, double v) {
@@ -124,9 +125,22 @@ void paint(const Patch& patch, const Camera& camera, double du, double dv, cv::M
       const auto cross = profile.at(st.x());
       const double across = (st.y() - cross.middle) / cross.half;
       if (!(std::abs(across) < 1)) continue;
-      row[u] = outline_m > 0 ? outline
+      row[u] = widened_m > 0 ? kOutline
                              : shaded(patch, patch.colour(st.x(), across), across, cross.along);
     }
+  }
+}
+
+}  // namespace
+
+void paint(const std::vector<Patch>& patches, const Camera& camera, double du, double dv,
+           cv::Mat& image) {
+  for (std::size_t i = 0; i < patches.size();) {
+    std::size_t end = i;
+    for (; end < patches.size() && patches[end].group == patches[i].group; ++end)
+      if (patches[end].outline_m > 0)
+        paint_one(patches[end], camera, du, dv, image, patches[end].outline_m);
+    for (; i < end; ++i) paint_one(patches[i], camera, du, dv, image, 0);
   }
 }
 

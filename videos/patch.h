@@ -28,11 +28,13 @@ struct Patch {
   double gloss = 0;            // strength of the highlight
   double roundness = 1;        // 0: flat as a cut-out
   double end_roundness = 0.2;  // the same of the rounded ends, small where another patch goes on
+  double outline_m = 0;        // > 0: a line around the group
+  int group = 0;               // patches of one group follow each other and share an outline
 };
 
-/// Paints the patch over an image of floats, one sample at (u + du, v + dv) of each pixel.
-/// `outline_m` > 0: paints its shape widened by that, in `outline` alone.
-void paint(const Patch& patch, const Camera& camera, double du, double dv, cv::Mat& image,
-           double outline_m = 0, const Colour& outline = {});
+/// Paints patches over one another on an image of floats, one sample at (u + du, v + dv) of each
+/// pixel.
+void paint(const std::vector<Patch>& patches, const Camera& camera, double du, double dv,
+           cv::Mat& image);
 
 }  // namespace stride::videos

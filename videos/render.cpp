@@ -13,17 +13,52 @@
 namespace stride::videos {
 namespace {
 
+HumanLook woman() {
+  HumanLook look;
+  look.skin = rgb(150, 100, 72);
+  look.hair = rgb(30, 24, 24);
+  look.shirt = rgb(116, 60, 150);
+  look.shirt_band = rgb(250, 214, 90);
+  look.shorts = rgb(30, 32, 38);
+  look.stripe = rgb(250, 214, 90);
+  look.shoe = rgb(236, 84, 110);
+  look.ponytail = true;
+  return look;
+}
+
+HumanLook veteran() {
+  HumanLook look;
+  look.skin = rgb(226, 180, 152);
+  look.hair = rgb(176, 172, 166);
+  look.shirt = rgb(50, 130, 110);
+  look.shirt_band = rgb(226, 236, 230);
+  look.shorts = rgb(120, 104, 82);
+  look.stripe = rgb(90, 78, 62);
+  look.sock = rgb(60, 62, 70);
+  look.shoe = rgb(60, 84, 170);
+  return look;
+}
+
 std::unique_ptr<Costume> make_costume(const Clip& clip) {
-  if (clip.character == "human") return human_costume(clip.seed + 1);
+  const std::uint64_t seed = clip.seed + 1;
+  if (clip.character == "man") return human_costume(seed);
+  if (clip.character == "woman") return human_costume(seed, woman());
+  if (clip.character == "veteran") return human_costume(seed, veteran());
+  if (clip.character == "game") return game_costume(seed);
+  if (clip.character == "cartoon") return cartoon_costume();
   if (clip.character == "markers") return marker_costume();
-  throw Error(
-      fmt::format("clip {}: character '{}': must be human or markers", clip.name, clip.character));
+  throw Error(fmt::format("clip {}: character '{}': is none", clip.name, clip.character));
 }
 
 std::unique_ptr<Scene> make_scene(const Clip& clip) {
-  if (clip.scene == "track") return track_scene(clip.seed + 2);
+  const std::uint64_t seed = clip.seed + 2;
+  if (clip.scene == "track") return track_scene(seed);
+  if (clip.scene == "street") return street_scene(seed);
+  if (clip.scene == "gym") return gym_scene(seed);
+  if (clip.scene == "arena") return arena_scene(seed);
+  if (clip.scene == "meadow") return meadow_scene();
   if (clip.scene == "dark") return dark_scene();
-  throw Error(fmt::format("clip {}: scene '{}': must be track or dark", clip.name, clip.scene));
+  throw Error(fmt::format("clip {}: scene '{}': is none", clip.name, clip.scene));
 }
 
 }  // namespace
@@ -53,9 +88,10 @@ cv::Mat Renderer::frame(int index) const {
     const double time_s = (index + open) / clip.rate_hz;
     const Skeleton skeleton = motion.skeleton(time_s);
     const Camera camera = motion.camera(time_s);
-    parts_->scene->paint(camera, du, dv, cast_shadow(skeleton), sample);
-    const auto patches = parts_->costume->dress(skeleton, clip.proportions, clip.to_left);
-    for (const Patch& patch : patches) paint(patch, camera, du, dv, sample);
+    parts_->scene->paint(camera, du, dv, cast_shadow(skeleton), motion.belt_m(time_s), sample);
+    paint(parts_->scene->behind(clip.to_left), camera, du, dv, sample);
+    paint(parts_->costume->dress(skeleton, clip.proportions, clip.to_left), camera, du, dv, sample);
+    paint(parts_->scene->before(clip.to_left), camera, du, dv, sample);
     sum += sample;
   }
   sum /= clip.samples;

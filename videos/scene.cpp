@@ -47,7 +47,7 @@ std::vector<ShadowBlob> cast_shadow(const Skeleton& k) {
 }
 
 void Scene::paint(const Camera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
-                  cv::Mat& image) const {
+                  double belt_m, cv::Mat& image) const {
   double left = 1e9, right = -1e9;
   for (const ShadowBlob& blob : shadow) {
     left = std::min(left, blob.x_m - 3 * blob.radius_m);
@@ -62,7 +62,7 @@ void Scene::paint(const Camera& camera, double du, double dv, const std::vector<
       if (depth < wall_depth) {
         const double x = camera.x_m + camera.way() * uv.x() * depth;
         const double z = camera.distance_m - depth;
-        row[u] = ground(x, z);
+        row[u] = ground(x, z, belt_m);
         if (x > left && x < right)
           row[u] *= static_cast<float>(1 - darkness(shadow, x, camera.way() * z));
         continue;

@@ -25,11 +25,16 @@ class Scene {
  public:
   virtual ~Scene() = default;
   /// Paints every pixel of an image of floats, one sample at (u + du, v + dv) of each.
+  /// `belt_m`: how far the belt of a treadmill has run.
   void paint(const Camera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
-             cv::Mat& image) const;
+             double belt_m, cv::Mat& image) const;
+
+  /// Things that stand behind and before the runner, seen from the camera's side.
+  virtual std::vector<Patch> behind(bool) const { return {}; }
+  virtual std::vector<Patch> before(bool) const { return {}; }
 
  protected:
-  virtual Colour ground(double x_m, double z_m) const = 0;
+  virtual Colour ground(double x_m, double z_m, double belt_m) const = 0;
   /// A wall stands at this z, up to wall_height_m.
   virtual double wall_z_m() const = 0;
   virtual double wall_height_m() const = 0;
@@ -42,6 +47,14 @@ class Scene {
 /// A running track with boards and trees behind it.
 std::unique_ptr<Scene> track_scene(std::uint64_t seed);
 
+/// A pavement along a wall of bricks.
+std::unique_ptr<Scene> street_scene(std::uint64_t seed);
+/// A treadmill in a gym, at x = 0.
+std::unique_ptr<Scene> gym_scene(std::uint64_t seed);
+/// Plates of metal under a planet.
+std::unique_ptr<Scene> arena_scene(std::uint64_t seed);
+/// Drawn hills.
+std::unique_ptr<Scene> meadow_scene();
 /// Nothing but black.
 std::unique_ptr<Scene> dark_scene();
 

@@ -10,6 +10,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRad = std::numbers::pi / 180;
+constexpr double kMidStance = 0.16, kMidFlight = 0.42;  // phases of a run
 
 /// `length` from hanging straight down, turned forward by `angle`.
 Vector3d hanging(double angle, double length) {
@@ -64,7 +65,8 @@ Skeleton pose(const Gait& gait, const Proportions& p, double phase, double x_m,
   s.pelvis_tilt = kRad * gait.pelvis_tilt_deg(phase);
   s.trunk_lean = kRad * gait.trunk_lean_deg(phase);
   const Vector3d up(std::sin(s.trunk_lean), std::cos(s.trunk_lean), 0);
-  s.shoulders = s.pelvis + p.trunk * up;
+  const double stretch = 1 - gait.squash * std::cos(4 * std::numbers::pi * (phase - kMidStance));
+  s.shoulders = s.pelvis + stretch * p.trunk * up;
   s.head_pitch = 0.3 * s.trunk_lean;
   s.head =
       s.shoulders + p.neck * Vector3d(std::sin(s.trunk_lean + 0.12), std::cos(s.trunk_lean), 0);
@@ -118,7 +120,8 @@ Grounding ground(const Gait& gait, const Proportions& p) {
   for (int i = 0; i < kSteps; ++i) {
     const double phase = static_cast<double>(i) / kSteps, step = 1.0 / kSteps;
     const Skeleton now = at(phase);
-    if (clearance(now, p, 0) > lowest + 0.015) continue;
+    if (clearance(now, p, 0) > lowest + 0.015 || clearance(now, p, 0) > clearance(now, p, 1))
+      continue;
     const auto before = sole(at(phase - step), p, 0), after = sole(at(phase + step), p, 0);
     const auto points = sole(now, p, 0);
     const int standing = points[0].y() < points[1].y() ? 0 : 1;
@@ -127,6 +130,29 @@ Grounding ground(const Gait& gait, const Proportions& p) {
   }
   result.speed_m_s = travelled / count / gait.period_s;
   return result;
+}
+
+Gait standing(Gait gait, const Proportions& p, double hop_m) {
+  constexpr int kSteps = 200, kEven = 4;
+  std::vector<double> height(kSteps);
+  for (int i = 0; i < kSteps; ++i) {
+    const double phase = static_cast<double>(i) / kSteps;
+    const Skeleton s = pose(gait, p, phase, 0, 0);
+    const double flight = std::max(0.0, std::cos(4 * std::numbers::pi * (phase - kMidFlight)));
+    height[i] = -std::min(clearance(s, p, 0), clearance(s, p, 1)) + hop_m * flight * flight;
+  }
+  // Both steps of a stride are alike: even harmonics only.
+  gait.pelvis_height_m = {0, std::vector<Harmonics::Term>(2 * kEven)};
+  for (int i = 0; i < kSteps; ++i) {
+    const double phase = static_cast<double>(i) / kSteps;
+    gait.pelvis_height_m.mean += height[i] / kSteps;
+    for (int h = 2; h <= 2 * kEven; h += 2) {
+      auto& term = gait.pelvis_height_m.terms[h - 1];
+      term.cosine += 2 * height[i] / kSteps * std::cos(2 * std::numbers::pi * h * phase);
+      term.sine += 2 * height[i] / kSteps * std::sin(2 * std::numbers::pi * h * phase);
+    }
+  }
+  return gait;
 }
 
 }  // namespace stride::videos

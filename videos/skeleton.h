@@ -54,4 +54,8 @@ struct Grounding {
 };
 Grounding ground(const Gait& gait, const Proportions& proportions);
 
+/// The gait with a height of the pelvis that keeps the lower shoe on the ground, but for a hop of
+/// `hop_m` in each flight: where legs or angles are not those with which the height was measured.
+Gait standing(Gait gait, const Proportions& proportions, double hop_m);
+
 }  // namespace stride::videos

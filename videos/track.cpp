@@ -11,7 +11,7 @@ class Track final : public Scene {
   explicit Track(std::uint64_t seed) : grain_(seed) {}
 
  protected:
-  Colour ground(double x, double z) const override {
+  Colour ground(double x, double z, double) const override {
     if (z < kGrass_m) {
       const double blades = grain_.rough(7 * x, 2.5 * z) + 0.5 * grain_(40 * x, 9 * z);
       return lit(rgb(104, 136, 66), 1 + 0.22 * blades);

@@ -84,13 +84,14 @@ Table truth_m(const Clip& clip) {
   return table;
 }
 
-Keypoints clicks(const Clip& clip, double sd_px) {
+Keypoints clicks(const Clip& clip) {
   const Trajectory truth = truth_px(clip);
   Keypoints keypoints;
   keypoints.video = truth.video;
   keypoints.width_px = clip.width_px;
   keypoints.height_px = clip.height_px;
   keypoints.direction = direction(clip);
+  if (clip.treadmill) keypoints.treadmill = true;
   keypoints.near_leg = clip.to_left ? "left" : "right";
   Normal normal(clip.seed * 15485863);
   const double step = clip.gait.period_s * clip.rate_hz / kClicksPerStride;
@@ -101,7 +102,7 @@ Keypoints clicks(const Clip& clip, double sd_px) {
     for (const BodyPart part :
          {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
           BodyPart::ankle_l, BodyPart::toe_l}) {
-      const Eigen::Vector2d off(sd_px * normal(), sd_px * normal());
+      const Eigen::Vector2d off(clip.click_sd_px * normal(), clip.click_sd_px * normal());
       Click click;
       click.p_px = (frame[part].p_px + off).unaryExpr([](double x) { return rounded(x, 2); });
       clicked[part] = click;

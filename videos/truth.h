@@ -20,8 +20,8 @@ Trajectory truth_px(const Clip& clip);
 Table truth_m(const Clip& clip);
 
 /// The clicks that a person would make at the paper's rate: four positions a half step, eight a
-/// stride, each `sd_px` off; the required parts and the toes.
-Keypoints clicks(const Clip& clip, double sd_px = 1.5);
+/// stride, each clip.click_sd_px off; the required parts and the toes.
+Keypoints clicks(const Clip& clip);
 
 /// Writes NAME.truth.csv, NAME.truth_m.csv and NAME.keypoints.json beside the video.
 void write_truth(const Clip& clip, const std::filesystem::path& video);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "extract/table.h"
+#include "videos/clip.h"
 #include "videos/gait.h"
 
 namespace stride::videos {
@@ -49,6 +50,24 @@ TEST(Skeleton, StandsOnTheGroundAndDoesNotSlide) {
     lowest = std::min(lowest, clearance(pose(gait, {}, phase, 0, height), {}, 0));
   }
   EXPECT_NEAR(lowest, 0, 0.002);
+}
+
+TEST(Skeleton, OfEveryClipTouchesTheGroundAndHardlySinksIn) {
+  for (const Clip& clip : clips()) {
+    const Motion motion(clip);
+    double lowest = 1, highest = 0;
+    for (int i = 0; i < clip.frames; ++i) {
+      const Skeleton s = motion.skeleton(i / clip.rate_hz);
+      const double lower =
+          std::min(clearance(s, clip.proportions, 0), clearance(s, clip.proportions, 1));
+      lowest = std::min(lowest, lower);
+      highest = std::max(highest, lower);
+    }
+    EXPECT_GT(lowest, -0.02) << clip.name;
+    EXPECT_LT(lowest, 0.02) << clip.name;
+    // Only who runs leaves the ground.
+    EXPECT_EQ(highest > 0.03, clip.name != "walk") << clip.name << ' ' << highest;
+  }
 }
 
 }  // namespace
