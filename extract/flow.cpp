@@ -84,9 +84,9 @@ void FlowTracker::follow(int first, int last, const std::vector<BodyPart>& parts
     return images_[static_cast<std::size_t>(frame - images_.front().frame)].pyramid;
   };
   const std::size_t n = parts.size();
-  std::vector<FlowPoint> points(n);
+  std::vector<Vector2d> points(n);
   for (std::size_t i = 0; i < n; ++i) {
-    points[i].p_px = *from[index(parts[i])];
+    points[i] = *from[index(parts[i])];
     out[i].part = parts[i];
     out[i].first = first;
     out[i].last = last;
@@ -98,8 +98,8 @@ void FlowTracker::follow(int first, int last, const std::vector<BodyPart>& parts
     std::vector<cv::Point2f> here(n), there(n), back(n);
     std::vector<Vector2d> expected(n);
     for (std::size_t i = 0; i < n; ++i) {
-      expected[i] = points[i].p_px + prior_(parts[i], next) - prior_(parts[i], frame);
-      here[i] = back[i] = cv_point(points[i].p_px);
+      expected[i] = points[i] + prior_(parts[i], next) - prior_(parts[i], frame);
+      here[i] = back[i] = cv_point(points[i]);
       there[i] = cv_point(expected[i]);
     }
     const auto found = lucas_kanade(image(frame), image(next), here, there, options_);
@@ -107,26 +107,22 @@ void FlowTracker::follow(int first, int last, const std::vector<BodyPart>& parts
     for (std::size_t i = 0; i < n; ++i) {
       const double round_trip = cv::norm(back[i] - here[i]);
       const Vector2d arrived = eigen_point(there[i]);
-      FlowPoint& point = points[i];
-      ++point.steps;
-      if (found[i] && found_back[i] && round_trip < options_.round_trip_px &&
-          (arrived - expected[i]).norm() < options_.step_px) {
-        point.p_px = arrived;
-        point.round_trip_px = std::hypot(point.round_trip_px, round_trip);
-      } else {
-        point.p_px = expected[i];
-        ++point.guessed_steps;
-      }
-      (backward ? out[i].backward : out[i].forward).push_back(point);
+      FlowStep& step = (backward ? out[i].backward : out[i].forward).emplace_back();
+      step.round_trip_px = round_trip;
+      step.believed = found[i] && found_back[i] && round_trip < options_.round_trip_px &&
+                      (arrived - expected[i]).norm() < options_.step_px;
+      const Vector2d next_point = step.believed ? arrived : expected[i];
+      step.way_px = direction * (next_point - points[i]);
+      points[i] = next_point;
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
     FlowStretch& stretch = out[i];
     if (backward) {
       std::ranges::reverse(stretch.backward);
-      stretch.backward_miss_px = points[i].p_px - *marks_.at(first)[index(parts[i])];
+      stretch.backward_miss_px = points[i] - *marks_.at(first)[index(parts[i])];
     } else {
-      stretch.forward_miss_px = points[i].p_px - *marks_.at(last)[index(parts[i])];
+      stretch.forward_miss_px = points[i] - *marks_.at(last)[index(parts[i])];
     }
   }
 }

@@ -24,19 +24,18 @@ struct FlowOptions {
 /// Places of the marked parts on one frame.
 using Places = std::array<std::optional<Eigen::Vector2d>, kBodyPartCount>;
 
-/// One part followed from a mark over frames.
-struct FlowPoint {
-  Eigen::Vector2d p_px = Eigen::Vector2d::Zero();
-  int steps = 0;             // from the mark where it started
-  int guessed_steps = 0;     // of these taken from the prior, because the flow was not believed
-  double round_trip_px = 0;  // root of the summed squares of the believed steps' round trips
+/// A part followed from one frame to the next.
+struct FlowStep {
+  Eigen::Vector2d way_px = Eigen::Vector2d::Zero();  // forward in time
+  bool believed = false;                             // else the way is the prior's
+  double round_trip_px = 0;                          // distance after there and back
 };
 
 /// A part between two marks: followed forward from the first and backward from the second.
 struct FlowStretch {
   BodyPart part = BodyPart::pelvis;
-  int first = 0, last = 0;                   // the marked frames
-  std::vector<FlowPoint> forward, backward;  // for first + 1 … last, and first … last − 1
+  int first = 0, last = 0;                  // the marked frames
+  std::vector<FlowStep> forward, backward;  // from first to first + 1, …, from last − 1 to last
   Eigen::Vector2d forward_miss_px = Eigen::Vector2d::Zero();  // arrival minus mark
   Eigen::Vector2d backward_miss_px = Eigen::Vector2d::Zero();
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -13,6 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
+
+constexpr std::size_t kMostTogether = 250;  // observations of a part in one regression
+constexpr std::size_t kMostFitted = 40;     // clicks of a part that the kernels are fitted to
 
 /// One or two body parts that are modelled together: a joint of both legs, or a part of the trunk.
 struct Group {
@@ -31,6 +35,9 @@ struct Sample {
   double time_s;
   int left;
   Vector2d p_px, variance_px2;
+  double since_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_way() const { return !std::isnan(since_s); }
 };
 
 constexpr double kJitter = 1e-9;  // of the largest variance, against rounding
@@ -91,9 +98,13 @@ constexpr double kTrunkSway = 0.015, kTrunkBob = 0.08, kDrift = 1.0;
 
 GroupData centred(Group group, std::vector<Sample> samples, double size_px) {
   GroupData data{group, std::move(samples), Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
-  const double n = static_cast<double>(data.samples.size());
-  for (const Sample& s : data.samples) data.mean_px += s.p_px / n;
+  const auto places =
+      std::ranges::count_if(data.samples, [](const Sample& s) { return !s.is_way(); });
+  const double n = std::max(1.0, static_cast<double>(places));
+  for (const Sample& s : data.samples)
+    if (!s.is_way()) data.mean_px += s.p_px / n;
   for (Sample& s : data.samples) {
+    if (s.is_way()) continue;
     s.p_px -= data.mean_px;
     data.scale_px += s.p_px.cwiseAbs2() / n;
   }
@@ -109,20 +120,30 @@ GroupData centred(Group group, std::vector<Sample> samples, double size_px) {
 std::vector<Sample> samples_of(Group group, const Observations& observations, double origin_s) {
   std::vector<Sample> samples;
   for (const Observation& o : observations[index(group.right)])
-    samples.push_back({o.time_s - origin_s, 0, o.p_px, o.variance_px2});
+    samples.push_back({o.time_s - origin_s, 0, o.p_px, o.variance_px2, o.since_s - origin_s});
   if (group.paired())
     for (const Observation& o : observations[index(group.left)])
-      samples.push_back({o.time_s - origin_s, 1, o.p_px, o.variance_px2});
+      samples.push_back({o.time_s - origin_s, 1, o.p_px, o.variance_px2, o.since_s - origin_s});
   return samples;
+}
+
+/// Covariance of a place at a time with a sample.
+double covariance_with(const Covariance& c, double time_s, int left, const Sample& s) {
+  const double with_end = c(time_s, left, s.time_s, s.left);
+  return s.is_way() ? with_end - c(time_s, left, s.since_s, s.left) : with_end;
 }
 
 MatrixXd covariance_matrix(const Covariance& covariance, const std::vector<Sample>& samples) {
   const auto n = static_cast<Eigen::Index>(samples.size());
   MatrixXd matrix(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j)
-      matrix(i, j) = matrix(j, i) =
-          covariance(samples[i].time_s, samples[i].left, samples[j].time_s, samples[j].left);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Sample& s = samples[i];
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      double c = covariance_with(covariance, s.time_s, s.left, samples[j]);
+      if (s.is_way()) c -= covariance_with(covariance, s.since_s, s.left, samples[j]);
+      matrix(i, j) = matrix(j, i) = c;
+    }
+  }
   return matrix;
 }
 
@@ -145,13 +166,24 @@ std::array<MatrixXd, 2> covariance_matrices(const GaitKernel& kernel, const Grou
   return {first, data.group.paired() ? first : covariance_matrix(y, data.samples)};
 }
 
+/// Joints clicked on the same frames have the same covariance.
+bool same_times(const GroupData& a, const GroupData& b) {
+  return std::ranges::equal(a.samples, b.samples, [](const Sample& s, const Sample& t) {
+    return s.time_s == t.time_s && s.left == t.left;
+  });
+}
+
 /// −log of the probability of the samples, without constants.
 double surprise(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
   double sum = 0;
+  std::array<MatrixXd, 2> matrices;
+  const GroupData* before = nullptr;
   for (const GroupData& data : groups) {
-    auto matrices = covariance_matrices(kernel, data);
+    if (before == nullptr || !same_times(*before, data))
+      matrices = covariance_matrices(kernel, data);
+    before = &data;
     for (int axis = 0; axis < 2; ++axis) {
-      MatrixXd& noisy = matrices[axis];
+      MatrixXd noisy = matrices[axis];
       noisy.diagonal().array() += std::pow(kernel.noise_px / data.scale_px[axis], 2) +
                                   kJitter * noisy.diagonal().maxCoeff();
       const Eigen::LLT<MatrixXd> factor(noisy);
@@ -201,12 +233,13 @@ struct Fitted {
 };
 
 /// Pattern search in the logarithms, one hyperparameter after another.
-Fitted refined(Fitted best, const std::vector<GroupData>& groups, bool period_too, int rounds) {
+Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
+  const bool legs = groups.front().group.paired();
   double step = 1.8;
   for (int round = 0; round < rounds; ++round, step = std::sqrt(step))
     for (const Hyperparameter& h : kHyperparameters) {
       const bool is_period = h.member == &GaitKernel::period_s;
-      if (is_period && !period_too) continue;
+      if (is_period && !legs) continue;  // the trunk takes the legs'
       const double factor = is_period ? 1 + 0.02 * (step - 1) : step;
       for (const double f : {factor, 1 / factor}) {
         Fitted next = best;
@@ -240,7 +273,7 @@ double median_spacing_s(const std::vector<Sample>& samples) {
 Fitted fitted(const std::vector<GroupData>& groups) {
   std::vector<Fitted> scan;
   const double shortest_s = std::clamp(2 * median_spacing_s(groups.front().samples), 0.4, 1.2);
-  for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.02) {
+  for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.015) {
     GaitKernel kernel;
     kernel.period_s = period_s;
     scan.push_back({kernel, cost(kernel, groups)});
@@ -252,9 +285,12 @@ Fitted fitted(const std::vector<GroupData>& groups) {
       peaks.push_back(scan[i]);
   const auto cheaper = [](const Fitted& a, const Fitted& b) { return a.cost < b.cost; };
   std::ranges::sort(peaks, cheaper);
-  if (peaks.size() > 4) peaks.resize(4);
-  for (Fitted& peak : peaks) peak = refined(peak, groups, true, 2);
-  return refined(*std::ranges::min_element(peaks, cheaper), groups, true, 4);
+  if (peaks.size() > 6) peaks.resize(6);
+  for (Fitted& peak : peaks) peak = refined(peak, groups, 1);
+  std::ranges::sort(peaks, cheaper);
+  if (peaks.size() > 2) peaks.resize(2);
+  for (Fitted& peak : peaks) peak = refined(peak, groups, 4);
+  return *std::ranges::min_element(peaks, cheaper);
 }
 
 /// Every sample relative to the pelvis at its time.
@@ -283,11 +319,21 @@ struct Regression {
     }
   }
 
+  Vector2d place(double time_s, int left) const {
+    Vector2d p_px;
+    VectorXd c;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (axis == 0 || !data.group.paired()) c = with_samples(covariance[axis], time_s, left);
+      p_px[axis] = data.mean_px[axis] + data.scale_px[axis] * c.dot(weights[axis]);
+    }
+    return p_px;
+  }
+
   Estimate at(double time_s, int left) const {
     Estimate estimate;
     VectorXd c;
     for (int axis = 0; axis < 2; ++axis) {
-      if (axis == 0 || !data.group.paired()) c = covariance_with(covariance[axis], time_s, left);
+      if (axis == 0 || !data.group.paired()) c = with_samples(covariance[axis], time_s, left);
       const double scale = data.scale_px[axis];
       estimate.p_px[axis] = data.mean_px[axis] + scale * c.dot(weights[axis]);
       const double own = covariance[axis](time_s, left, time_s, left);
@@ -297,10 +343,19 @@ struct Regression {
     return estimate;
   }
 
-  VectorXd covariance_with(const Covariance& function, double time_s, int left) const {
+  /// Sample i minus what the regression makes of it.
+  Vector2d residual_px(std::size_t i) const {
+    Vector2d residual;
+    for (int axis = 0; axis < 2; ++axis)
+      residual[axis] = data.samples[i].variance_px2[axis] / data.scale_px[axis] *
+                       weights[axis](static_cast<Eigen::Index>(i));
+    return residual;
+  }
+
+  VectorXd with_samples(const Covariance& function, double time_s, int left) const {
     VectorXd c(static_cast<Eigen::Index>(data.samples.size()));
     for (Eigen::Index i = 0; i < c.size(); ++i)
-      c(i) = function(time_s, left, data.samples[i].time_s, data.samples[i].left);
+      c(i) = covariance_with(function, time_s, left, data.samples[i]);
     return c;
   }
 };
@@ -313,7 +368,10 @@ std::vector<Sample> with_noise(std::vector<Sample> samples, double noise_px) {
 std::vector<Vector2d> pelvis_at(const Regression& pelvis, const std::vector<Sample>& samples) {
   std::vector<Vector2d> points;
   points.reserve(samples.size());
-  for (const Sample& s : samples) points.push_back(pelvis.at(s.time_s, 0).p_px);
+  for (const Sample& s : samples) {
+    points.push_back(pelvis.at(s.time_s, 0).p_px);
+    if (s.is_way()) points.back() -= pelvis.at(s.since_s, 0).p_px;
+  }
   return points;
 }
 
@@ -321,11 +379,29 @@ std::vector<GroupData> leg_data(const Observations& clicks, double origin_s,
                                 const Regression& pelvis, double size_px) {
   std::vector<GroupData> groups;
   for (const Group& group : kLegGroups) {
+    if (groups.size() == 2) break;  // knees and ankles say enough
     const auto samples = samples_of(group, clicks, origin_s);
     if (samples.size() >= 4)
       groups.push_back(centred(group, relative(samples, pelvis_at(pelvis, samples)), size_px));
   }
   return groups;
+}
+
+/// Fewer clicks where there are many, as of a detector: enough for the kernels, at most ten a
+/// second or so, from the middle of the clip.
+Observations thinned(const Observations& clicks) {
+  Observations few;
+  for (int i = 0; i < kBodyPartCount; ++i) {
+    for (const Observation& o : clicks[i])
+      if (clicks[i].size() <= kMostFitted || few[i].empty() ||
+          o.time_s > few[i].back().time_s + 0.06)
+        few[i].push_back(o);
+    if (few[i].size() <= kMostFitted) continue;
+    const auto skip = static_cast<long>((few[i].size() - kMostFitted) / 2);
+    few[i].erase(few[i].begin(), few[i].begin() + skip);
+    few[i].resize(kMostFitted);
+  }
+  return few;
 }
 
 /// Rms distance of knees, ankles and toes from the pelvis clicked at the same time.
@@ -345,7 +421,8 @@ double leg_size_px(const Observations& clicks) {
 
 }  // namespace
 
-GaitPrior fit_gait_prior(const Observations& clicks) {
+GaitPrior fit_gait_prior(const Observations& all_clicks) {
+  const Observations clicks = thinned(all_clicks);
   GaitPrior prior;
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const auto& part : clicks)
@@ -370,44 +447,153 @@ GaitPrior fit_gait_prior(const Observations& clicks) {
   prior.trunk = GaitKernel();
   prior.trunk.period_s = fit.kernel.period_s;
   const std::vector<GroupData> trunk{centred(kPelvis, pelvis, prior.size_px)};
-  prior.trunk = refined({prior.trunk, cost(prior.trunk, trunk)}, trunk, false, 5).kernel;
+  prior.trunk = refined({prior.trunk, cost(prior.trunk, trunk)}, trunk, 5).kernel;
   legs = leg_data(clicks, prior.origin_s, pelvis_regression(), prior.size_px);
-  prior.legs = refined({fit.kernel, cost(fit.kernel, legs)}, legs, true, 5).kernel;
+  prior.legs = refined({fit.kernel, cost(fit.kernel, legs)}, legs, 4).kernel;
   prior.trunk.period_s = prior.legs.period_s;
   return prior;
 }
 
-std::vector<std::array<Estimate, kBodyPartCount>> estimate(const GaitPrior& prior,
-                                                           const Observations& observations,
-                                                           const std::vector<double>& times_s) {
+namespace {
+
+/// Places of the pelvis, each computed once.
+class PelvisPath {
+ public:
+  explicit PelvisPath(const Regression& regression) : regression_(regression) {}
+  Vector2d operator()(double time_s) {
+    const auto [entry, is_new] = known_.try_emplace(time_s);
+    if (is_new) entry->second = regression_.place(time_s, 0);
+    return entry->second;
+  }
+  /// The part of a sample that is the pelvis'.
+  Vector2d share_of(const Sample& s) {
+    return s.is_way() ? Vector2d((*this)(s.time_s) - (*this)(s.since_s)) : (*this)(s.time_s);
+  }
+
+ private:
+  const Regression& regression_;
+  std::map<double, Vector2d> known_;
+};
+
+/// Samples of the same place or way, as one.
+class Pool {
+ public:
+  void add(const Sample& s, const Vector2d& p_px) {
+    Sum& sum = sums_[{s.time_s, s.is_way() ? s.since_s : s.time_s}];
+    const Vector2d weight = s.variance_px2.cwiseInverse();
+    sum.weight += weight;
+    sum.weighted += weight.cwiseProduct(p_px);
+  }
+  std::vector<Sample> samples() const {
+    std::vector<Sample> samples;
+    for (const auto& [times, sum] : sums_) {
+      Sample& s = samples.emplace_back();
+      s.time_s = times.first;
+      s.left = 0;
+      s.p_px = sum.weighted.cwiseQuotient(sum.weight);
+      s.variance_px2 = sum.weight.cwiseInverse();
+      if (times.second != times.first) s.since_s = times.second;
+    }
+    return samples;
+  }
+
+ private:
+  struct Sum {
+    Vector2d weight = Vector2d::Zero(), weighted = Vector2d::Zero();
+  };
+  std::map<std::pair<double, double>, Sum> sums_;
+};
+
+std::optional<Regression> leg_regression(const Group& group, const GaitKernel& kernel,
+                                         std::vector<Sample> samples, PelvisPath& pelvis,
+                                         double size_px) {
+  if (samples.empty()) return std::nullopt;
+  for (Sample& s : samples) s.p_px -= pelvis.share_of(s);
+  return Regression(kernel, centred(group, std::move(samples), size_px));
+}
+
+Estimates estimate_together(const GaitPrior& prior, const Observations& observations,
+                            const std::vector<double>& times_s) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Estimate absent;
   absent.p_px.setConstant(kNan);
   absent.variance_px2.setConstant(kNan);
   std::array<Estimate, kBodyPartCount> none;
   none.fill(absent);
-  std::vector<std::array<Estimate, kBodyPartCount>> estimates(times_s.size(), none);
+  Estimates estimates(times_s.size(), none);
 
   const auto pelvis_samples = samples_of(kPelvis, observations, prior.origin_s);
   if (pelvis_samples.empty()) return estimates;
-  const Regression pelvis(prior.trunk, centred(kPelvis, pelvis_samples, prior.size_px));
+  Regression pelvis(prior.trunk, centred(kPelvis, pelvis_samples, prior.size_px));
+  {
+    // What the legs leave unexplained is the pelvis' too: one round of backfitting the sum of both
+    // (a second one changes nothing that could be measured).
+    PelvisPath path(pelvis);
+    Pool pool;
+    for (const Sample& s : pelvis_samples) pool.add(s, s.p_px);
+    for (const Group& group : kLegGroups) {
+      const auto legs = leg_regression(
+          group, prior.legs, samples_of(group, observations, prior.origin_s), path, prior.size_px);
+      if (!legs) continue;
+      for (std::size_t i = 0; i < legs->data.samples.size(); ++i) {
+        const Sample& s = legs->data.samples[i];
+        pool.add(s, path.share_of(s) + legs->residual_px(i));
+      }
+    }
+    pelvis = Regression(prior.trunk, centred(kPelvis, pool.samples(), prior.size_px));
+  }
+
+  PelvisPath path(pelvis);
   for (std::size_t i = 0; i < times_s.size(); ++i)
     estimates[i][index(BodyPart::pelvis)] = pelvis.at(times_s[i] - prior.origin_s, 0);
-
   const auto add = [&](const Group& group, const GaitKernel& kernel) {
-    const auto samples = samples_of(group, observations, prior.origin_s);
-    if (samples.empty()) return;
-    const Regression regression(
-        kernel, centred(group, relative(samples, pelvis_at(pelvis, samples)), prior.size_px));
+    const auto legs = leg_regression(group, kernel, samples_of(group, observations, prior.origin_s),
+                                     path, prior.size_px);
+    if (!legs) return;
     for (std::size_t i = 0; i < times_s.size(); ++i)
       for (int left = 0; left <= (group.paired() ? 1 : 0); ++left) {
-        Estimate estimate = regression.at(times_s[i] - prior.origin_s, left);
+        Estimate estimate = legs->at(times_s[i] - prior.origin_s, left);
         estimate.p_px += estimates[i][index(BodyPart::pelvis)].p_px;
+        estimate.variance_px2 += estimates[i][index(BodyPart::pelvis)].variance_px2;
         estimates[i][index(left ? group.left : group.right)] = estimate;
       }
   };
   for (const Group& group : kLegGroups) add(group, prior.legs);
   add(kHead, prior.trunk);
+  return estimates;
+}
+
+/// Observations in a range of times.
+Observations between(const Observations& observations, double from_s, double to_s) {
+  Observations some;
+  for (int i = 0; i < kBodyPartCount; ++i)
+    for (const Observation& o : observations[i])
+      if (o.time_s >= from_s && o.time_s <= to_s) some[i].push_back(o);
+  return some;
+}
+
+}  // namespace
+
+Estimates estimate(const GaitPrior& prior, const Observations& observations,
+                   const std::vector<double>& times_s) {
+  std::size_t most = 0;
+  for (const auto& part : observations) most = std::max(most, part.size());
+  if (most <= kMostTogether) return estimate_together(prior, observations, times_s);
+
+  // Cubic cost: a long clip goes in windows of two strides that see three more on either side.
+  const double window_s = 2 * prior.legs.period_s, margin_s = 3 * prior.legs.period_s;
+  Estimates estimates;
+  for (std::size_t i = 0; i < times_s.size();) {
+    std::size_t end = i;
+    while (end < times_s.size() && times_s[end] < times_s[i] + window_s) ++end;
+    const std::vector<double> window(times_s.begin() + static_cast<long>(i),
+                                     times_s.begin() + static_cast<long>(end));
+    const Observations seen =
+        between(observations, window.front() - margin_s, window.back() + margin_s);
+    const Estimates part = estimate_together(prior, seen, window);
+    estimates.insert(estimates.end(), part.begin(), part.end());
+    i = end;
+  }
   return estimates;
 }
 

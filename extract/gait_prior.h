@@ -2,17 +2,22 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "extract/body_part.h"
 
 namespace stride {
 
-/// Where a part was seen at a time, with the variance of each coordinate.
+/// Where a part was seen at a time, or how far it moved since an earlier one, with the variance of
+/// each coordinate.
 struct Observation {
   double time_s = 0;
-  Eigen::Vector2d p_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d p_px = Eigen::Vector2d::Zero();  // the place, or the way since `since_s`
   Eigen::Vector2d variance_px2 = Eigen::Vector2d::Ones();
+  double since_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_way() const { return since_s == since_s; }
 };
 using Observations = std::array<std::vector<Observation>, kBodyPartCount>;
 
@@ -52,8 +57,8 @@ GaitPrior fit_gait_prior(const Observations& clicks);
 
 /// Each part at each time given the observations; pelvis first, the others relative to it. A part
 /// without observations has NaN.
-std::vector<std::array<Estimate, kBodyPartCount>> estimate(const GaitPrior& prior,
-                                                           const Observations& observations,
-                                                           const std::vector<double>& times_s);
+using Estimates = std::vector<std::array<Estimate, kBodyPartCount>>;
+Estimates estimate(const GaitPrior& prior, const Observations& observations,
+                   const std::vector<double>& times_s);
 
 }  // namespace stride

@@ -11,7 +11,6 @@ namespace stride {
 namespace {
 
 using Eigen::Vector2d;
-using Estimates = std::vector<std::array<Estimate, kBodyPartCount>>;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClicked = 0.99;   // marks of at least this confidence are a person's
@@ -19,6 +18,7 @@ constexpr double kFlowStart = 0.6;  // marks of at least this confidence are fol
 constexpr double kPriorOnly = 0.3;  // most confidence that the prior alone can give
 constexpr double kStudentDof = 3;   // tails of the flow's and the detectors' errors
 constexpr int kReweightings = 3;
+constexpr double kLeastStepVariance = 0.1;  // px², of a step of the flow
 
 /// One part on one frame as a mark, the flow or a prediction has it.
 struct Reading {
@@ -30,14 +30,19 @@ struct Reading {
   double weight = 1;      // by agreement
   bool believed = false;  // the flow, and it led back
   double round_trip_px = 0;
+  int since_frame = -1;  // if set: p_px is the way since that frame
 };
 
 Observations observations_of(const std::vector<Reading>& readings,
                              const std::vector<double>& times_s) {
   Observations observations;
-  for (const Reading& r : readings)
-    observations[index(r.part)].push_back(
-        {times_s[static_cast<std::size_t>(r.frame)], r.p_px, r.variance_px2 / r.weight});
+  for (const Reading& r : readings) {
+    Observation& o = observations[index(r.part)].emplace_back();
+    o.time_s = times_s[static_cast<std::size_t>(r.frame)];
+    o.p_px = r.p_px;
+    o.variance_px2 = r.variance_px2 / r.weight;
+    if (r.since_frame >= 0) o.since_s = times_s[static_cast<std::size_t>(r.since_frame)];
+  }
   return observations;
 }
 
@@ -129,28 +134,27 @@ double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart par
   return n > 0 ? sum / n : kNan;
 }
 
-/// The two chains of a stretch, blended like a random walk that is held at both ends.
-void read_stretch(const FlowStretch& s, double part_miss, double noise,
-                  std::vector<Reading>& readings) {
+/// The steps of a stretch where the flow was believed, from either side.
+void read_stretch(const FlowStretch& s, double part_miss, std::vector<Reading>& readings) {
   const int length = s.last - s.first;
   const double own_miss = (s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm()) / 4;
-  const double step_variance =
-      std::max((part_miss + own_miss) / 2 - 2 * noise * noise, 0.05) / length;
-  for (int i = 0; i + 1 < length; ++i) {
-    const FlowPoint &a = s.forward[static_cast<std::size_t>(i)],
-                    &b = s.backward[static_cast<std::size_t>(i) + 1];
-    const double share = static_cast<double>(b.steps) / length;
-    const double guessed = 0.5 * a.guessed_steps / a.steps + 0.5 * b.guessed_steps / b.steps;
-    // Neighbouring frames share their errors: twice the variance keeps them from outvoting others.
-    const double variance = 2 * step_variance * a.steps * b.steps / length + noise * noise / 2;
+  // The steps of a stretch share their error: as much again as if they were independent, and more.
+  const double step_variance = kLeastStepVariance + 2 * (part_miss + own_miss) / length;
+  for (int i = 0; i < length; ++i) {
+    const FlowStep &a = s.forward[static_cast<std::size_t>(i)],
+                   &b = s.backward[static_cast<std::size_t>(i)];
+    if (!a.believed && !b.believed) continue;
+    const double share = a.believed && b.believed ? 0.5 : a.believed ? 1 : 0;
+    const Vector2d apart = share == 0.5 ? Vector2d(a.way_px - b.way_px) : Vector2d::Zero();
     Reading& reading = readings.emplace_back();
     reading.part = s.part;
-    reading.frame = s.first + 1 + i;
-    reading.p_px = share * a.p_px + (1 - share) * b.p_px;
-    reading.variance_px2.setConstant(variance * (1 + 16 * guessed * guessed));
-    reading.round_trip_px =
-        std::min(a.round_trip_px / std::sqrt(a.steps), b.round_trip_px / std::sqrt(b.steps));
-    reading.believed = a.guessed_steps == 0 || b.guessed_steps == 0;
+    reading.since_frame = s.first + i;
+    reading.frame = s.first + i + 1;
+    reading.p_px = share * a.way_px + (1 - share) * b.way_px;
+    reading.variance_px2.setConstant(step_variance * (share == 0.5 ? 1 : 2));
+    reading.variance_px2 += apart.cwiseAbs2() / 4;
+    reading.round_trip_px = share * a.round_trip_px + (1 - share) * b.round_trip_px;
+    reading.believed = true;
   }
 }
 
@@ -182,8 +186,12 @@ std::vector<FlowStretch> follow(const Trajectory& marks, const Estimates& expect
 void reweigh(std::vector<Reading>& readings, const Estimates& estimates, int first_frame) {
   for (Reading& r : readings) {
     if (!r.doubtful) continue;
-    const Estimate& now = estimates[static_cast<std::size_t>(r.frame - first_frame)][index(r.part)];
-    const double z = ((now.p_px - r.p_px).array().square() / r.variance_px2.array()).mean();
+    const auto estimated = [&](int frame) {
+      return estimates[static_cast<std::size_t>(frame - first_frame)][index(r.part)].p_px;
+    };
+    Vector2d now_px = estimated(r.frame);
+    if (r.since_frame >= 0) now_px -= estimated(r.since_frame);
+    const double z = ((now_px - r.p_px).array().square() / r.variance_px2.array()).mean();
     r.weight = (kStudentDof + 1) / (kStudentDof + z);
   }
 }
@@ -227,10 +235,13 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks, const Estimates&
     }
   }
   for (const Reading& r : readings) {
-    Point& point = frames[static_cast<std::size_t>(r.frame - first)][r.part];
-    if (!r.believed || !point.present()) continue;
+    if (!r.believed) continue;
     const double led_back = std::exp(-0.5 * r.round_trip_px * r.round_trip_px);
-    point.confidence = kPriorOnly + (1 - kPriorOnly) * std::min(1.0, r.weight) * led_back;
+    const double confidence = kPriorOnly + (1 - kPriorOnly) * std::min(1.0, r.weight) * led_back;
+    for (const int frame : {r.since_frame, r.frame}) {
+      Point& point = frames[static_cast<std::size_t>(frame - first)][r.part];
+      if (point.present()) point.confidence = std::max(point.confidence, confidence);
+    }
   }
   for (const TrajectoryFrame& mark : marks.frames)
     for (const BodyPart part : kBodyParts)
@@ -275,8 +286,7 @@ Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
     const double miss = mean_squared_miss(stretches, part);
     summary.miss_px[index(part)] = std::sqrt(2 * miss);
     for (const FlowStretch& stretch : stretches)
-      if (stretch.part == part)
-        read_stretch(stretch, miss, noise_px(summary.prior, part), readings);
+      if (stretch.part == part) read_stretch(stretch, miss, readings);
   }
   for (int round = 0; round < kReweightings; ++round) {
     estimates = estimate(summary.prior, observations_of(readings, times_s), span_s);
@@ -285,7 +295,7 @@ Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
 
   summary.marked_frames = static_cast<int>(marks.frames.size());
   std::size_t followed = 0, believed = 0;
-  for (const FlowStretch& s : stretches) followed += static_cast<std::size_t>(s.last - s.first - 1);
+  for (const FlowStretch& s : stretches) followed += static_cast<std::size_t>(s.last - s.first);
   for (const Reading& r : readings) believed += r.believed;
   summary.believed = followed > 0 ? static_cast<double>(believed) / followed : 0;
   tracked.trajectory = marks;
