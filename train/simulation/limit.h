@@ -33,4 +33,21 @@ inline double limit_force(const LimitLaw& law, double q, double u) {
          law.damping * (up + low) * u;
 }
 
+/// How the force falls with the coordinate and with its speed, at rest: those of the spring and of
+/// the damper as far as they have come in.
+struct LimitSlopes {
+  double stiffness = 0, damping = 0;
+};
+
+inline LimitSlopes limit_slopes(const LimitLaw& law, double q) {
+  const bool above = q > law.upper;
+  const double excess = above ? q - law.upper : law.lower - q;
+  if (excess <= 0) return {};
+  const double x = std::min(excess / law.transition, 1.0);
+  const double step = x * x * x * (10 + x * (6 * x - 15));
+  const double rise = 30 * x * x * (1 - x) * (1 - x) / law.transition;
+  return {(above ? law.upper_stiffness : law.lower_stiffness) * (step + rise * excess),
+          law.damping * step};
+}
+
 }  // namespace stride

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "train/simulation/planar_linear.h"
 #include "train/simulation/planar_muscles.h"
 
 namespace stride {
@@ -61,6 +62,23 @@ struct PlanarDynamics::Legs {
   V2 matrix[6][6];  // the upper triangle
   V2 right[6];
 };
+
+namespace {
+
+/// Adds a spring or damper between the foot's point (relative to the pelvis) and the ground, whose
+/// tensor is [xx xy; xy yy].
+void add_at_foot(PlanarLinear::Matrix& matrix, const Pair joint[3], Pair point, V2 xx, V2 xy,
+                 V2 yy) {
+  const Pair column[6] = {perp(point - joint[0]), perp(point - joint[1]),
+                          perp(point - joint[2]), perp(point),
+                          {both(1), V2{}},        {V2{}, both(1)}};
+  for (int i = 0; i < 6; ++i) {
+    const Pair w{xx * column[i].x + xy * column[i].y, xy * column[i].x + yy * column[i].y};
+    for (int j = i; j < 6; ++j) matrix.at[i][j] += dot(w, column[j]);
+  }
+}
+
+}  // namespace
 
 PlanarDynamics::PlanarDynamics(PlanarModel model, const EngineOptions& options)
     : model_(std::move(model)),
@@ -169,7 +187,7 @@ void PlanarDynamics::place(const State& state, Kinematics& k) {
 }
 
 void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation, Kinematics& k,
-                                  State& rate, std::array<V2, 3>& torque) {
+                                  State& rate, std::array<V2, 3>& torque, PlanarLinear* linear) {
   const Pair joint[3] = {k.origin[1], k.hinge, k.origin[3]};
   // All points first: positions relative to the pelvis.
   alignas(16) double px[PlanarModel::kMostPoints][2], py[PlanarModel::kMostPoints][2];
@@ -223,7 +241,12 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation, 
     const MuscleGroup r = muscle_group(model_.muscles[g], activation[g], state.y[State::kFiber + g],
                                        forces_.path_m[g]);
     rate.y[State::kFiber + g] = r.fiber_velocity_m_s;
-    forces_.fiber_stiffness_1_s[g] = r.stiffness_1_s;
+    if (linear) {
+      linear->fiber_1_s[g] = r.fiber_1_s;
+      linear->stretch_1_s[g] = r.stretch_1_s;
+      linear->tendon_N_m[g] = r.tendon_stiffness_n * max_force_N_[g];
+      linear->fiber_N_m[g] = linear->tendon_N_m[g] * r.cos_inverse;
+    }
     forces_.tendon_N[g] = r.tendon_force_n * max_force_N_[g];
     std::memcpy(&tension[4 * g], &forces_.tendon_N[g], sizeof(V4));
   }
@@ -232,10 +255,12 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation, 
     for (int j = muscle.first_joint; j <= muscle.last_joint; ++j) {
       torque[j] -= load(&tension[2 * m]) * arm[m][j];
     }
+    if (linear) linear->arm[m] = {arm[m][0], arm[m][1], arm[m][2]};
   }
 }
 
-void PlanarDynamics::touch(const State& state, const Kinematics& k, V2& fx, V2& fy, V2& moment) {
+void PlanarDynamics::touch(const State& state, const Kinematics& k, V2& fx, V2& fy, V2& moment,
+                           PlanarLinear* linear) {
   fx = fy = moment = V2{};
   forces_.ground_N = {};
   const PlanarModel& m = model_;
@@ -281,10 +306,22 @@ void PlanarDynamics::touch(const State& state, const Kinematics& k, V2& fx, V2& 
   fy = V2{normal[0] + normal[2], normal[1] + normal[3]};
   moment = V2{turning[0] + turning[2], turning[1] + turning[3]};
   for (int leg = 0; leg < kLegs; ++leg) forces_.ground_N[leg] = {fx[leg], fy[leg]};
+  if (!linear) return;
+  const auto pushes = normal > zero;
+  const V4 spring = pushes ? 1.5 * normal / x_in : zero;
+  const V4 damper = pushes ? 1.5 * m.contact.dissipation * hertz : zero;
+  const V4 brake = v < simd::all(1) ? normal * (us / m.contact.transition_velocity_m_s) : zero;
+  const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
+  for (int i = 0; i < 2 * m.spheres_of_foot; i += 2) {
+    const auto half = [&](V4 f) { return V2{f[i], f[i + 1]}; };
+    const Pair point{half(from_x), half(from_y)};
+    add_at_foot(linear->stiffness, joint, point, V2{}, V2{}, half(spring));
+    add_at_foot(linear->damping, joint, point, half(brake), V2{}, half(damper));
+  }
 }
 
 void PlanarDynamics::touch_obstacles(const State& state, const Kinematics& k, V2& fx, V2& fy,
-                                     V2& moment) const {
+                                     V2& moment, PlanarLinear* linear) const {
   const PlanarModel& m = model_;
   for (const Sphere& o : obstacles_) {
     if (std::abs(o.x_m - state.q(7)) > 2 + o.radius_m) continue;  // no foot reaches that far
@@ -310,6 +347,12 @@ void PlanarDynamics::touch_obstacles(const State& state, const Kinematics& k, V2
       fx[leg] += force * nx;
       fy[leg] += force * ny;
       moment[leg] += at_x * force * ny - at_y * force * nx;
+      if (!linear) continue;
+      V2 spring{};
+      spring[leg] = 1.5 * force / depth;
+      const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
+      add_at_foot(linear->stiffness, joint, {both(at_x), both(at_y)}, nx * nx * spring,
+                  nx * ny * spring, ny * ny * spring);
     }
   }
 }
@@ -339,21 +382,28 @@ void PlanarDynamics::assemble(const Kinematics& k, Legs& legs) const {
   legs.matrix[5][5] = mass;
 }
 
-void PlanarDynamics::evaluate(const State& state, const Fibers& activation, State& rate) {
+void PlanarDynamics::evaluate(const State& state, const Fibers& activation, State& rate,
+                              PlanarLinear* linear) {
   Kinematics k;
   place(state, k);
+  if (linear) linear->stiffness = linear->damping = {};
   std::array<V2, 3> torque{};
-  pull_muscles(state, activation, k, rate, torque);
+  pull_muscles(state, activation, k, rate, torque, linear);
   for (const PlanarModel::Limit& limit : model_.limits) {
     const double q = state.q(limit.coordinate);
     if (q > limit.law.upper || q < limit.law.lower) {
       const double force = limit_force(limit.law, q, state.u(limit.coordinate));
-      torque[limit.coordinate / 2][limit.coordinate % 2] += force;
+      const int joint = limit.coordinate / 2, leg = limit.coordinate % 2;
+      torque[joint][leg] += force;
+      if (!linear) continue;
+      const LimitSlopes slopes = limit_slopes(limit.law, q);
+      linear->stiffness.at[2 - joint][2 - joint][leg] += slopes.stiffness;
+      linear->damping.at[2 - joint][2 - joint][leg] += slopes.damping;
     }
   }
   V2 fx, fy, moment;
-  touch(state, k, fx, fy, moment);
-  if (!obstacles_.empty()) touch_obstacles(state, k, fx, fy, moment);
+  touch(state, k, fx, fy, moment, linear);
+  if (!obstacles_.empty()) touch_obstacles(state, k, fx, fy, moment, linear);
 
   // What the segments need beyond the accelerations of the coordinates: m (bias - gravity).
   const auto squared = [&](int i) { return k.omega[i] * k.omega[i]; };
@@ -383,6 +433,14 @@ void PlanarDynamics::evaluate(const State& state, const Fibers& activation, Stat
   legs.right[4] = -force.x;
   legs.right[5] = -force.y;
 
+  const double m = model_.mass_kg[0][0], cx = k.center[0].x[0], cy = k.center[0].y[0];
+  if (linear) {
+    std::memcpy(linear->mass.at, legs.matrix, sizeof legs.matrix);
+    linear->base_mass_kg = m;
+    linear->base_x_m = cx, linear->base_y_m = cy;
+    linear->base_inertia_kg_m2 = model_.inertia_kg_m2[0][0];
+  }
+
   // Eliminate ankle, knee and hip of both legs at once.
   V2 inverse[3];
   for (int p = 0; p < 3; ++p) {
@@ -394,7 +452,6 @@ void PlanarDynamics::evaluate(const State& state, const Fibers& activation, Stat
     }
   }
   // The base: its own body and what both legs leave.
-  const double m = model_.mass_kg[0][0], cx = k.center[0].x[0], cy = k.center[0].y[0];
   const double w2 = state.u(6) * state.u(6);
   const double f0x = m * (-w2 * cx - model_.gravity_x), f0y = m * (-w2 * cy - model_.gravity_y);
   double a[3][3], b[3];

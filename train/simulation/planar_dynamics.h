@@ -8,6 +8,8 @@
 
 namespace stride {
 
+struct PlanarLinear;
+
 /// Equations of motion of a PlanarModel: one evaluation takes poses, speeds, activations and fibre
 /// lengths to accelerations and fibre velocities, without a branch that depends on more than which
 /// laws are at work, and without allocating. See README.md for the equations.
@@ -33,8 +35,6 @@ class PlanarDynamics {
   /// What an evaluation leaves behind for observers.
   struct Forces {
     Fibers tendon_N{}, path_m{};
-    /// ∂(fibre velocity)/∂(fibre length): the stiff part of the equations is diagonal. 1/s.
-    Fibers fiber_stiffness_1_s{};
     std::array<Planar, PlanarModel::kLegs> ground_N{};
   };
 
@@ -52,7 +52,9 @@ class PlanarDynamics {
   void set_modes(const Modes& modes) { modes_ = modes; }
   const Modes& modes() const { return modes_; }
 
-  void evaluate(const State& state, const Fibers& activation, State& rate);
+  /// Sets `linear`, if given, to the stiff part of the equations at this state.
+  void evaluate(const State& state, const Fibers& activation, State& rate,
+                PlanarLinear* linear = nullptr);
   const Forces& forces() const { return forces_; }
 
   /// Rates of the raw activations.
@@ -71,10 +73,11 @@ class PlanarDynamics {
   struct Legs;
   void place(const State& state, Kinematics& k);
   void pull_muscles(const State& state, const Fibers& activation, Kinematics& k, State& rate,
-                    std::array<simd::V2, 3>& torque);
-  void touch(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy, simd::V2& moment);
+                    std::array<simd::V2, 3>& torque, PlanarLinear* linear);
+  void touch(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy, simd::V2& moment,
+             PlanarLinear* linear);
   void touch_obstacles(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy,
-                       simd::V2& moment) const;
+                       simd::V2& moment, PlanarLinear* linear) const;
   void assemble(const Kinematics& k, Legs& legs) const;
 
   PlanarModel model_;

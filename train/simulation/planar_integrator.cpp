@@ -1,48 +1,209 @@
 #include "train/simulation/planar_integrator.h"
 
-#include "train/simulation/integrator.h"
+#include <algorithm>
+#include <cmath>
+
+#include "train/simulation/rosenbrock.h"
 
 namespace stride {
 
-AdvanceReport PlanarIntegrator::advance(PlanarDynamics& dynamics, PlanarDynamics::State& y,
-                                        PlanarDynamics::Fibers& activation,
-                                        const PlanarDynamics::Fibers& excitation,
-                                        double duration_s) {
-  MersonIntegrator<64> merson;
-  std::array<double, 64> all{};
-  const auto unpack = [](const std::array<double, 64>& from, PlanarDynamics::State& to,
-                         PlanarDynamics::Fibers& a) {
-    for (int i = 0; i < 11; ++i)
-      for (int j = 0; j < 4; ++j) to.y[i][j] = from[4 * i + j];
-    for (int i = 0; i < 5; ++i)
-      for (int j = 0; j < 4; ++j) a[i][j] = from[44 + 4 * i + j];
-  };
-  const auto pack = [](const PlanarDynamics::State& from, const PlanarDynamics::Fibers& a,
-                       std::array<double, 64>& to) {
-    for (int i = 0; i < 11; ++i)
-      for (int j = 0; j < 4; ++j) to[4 * i + j] = from.y[i][j];
-    for (int i = 0; i < 5; ++i)
-      for (int j = 0; j < 4; ++j) to[44 + 4 * i + j] = a[i][j];
-  };
-  pack(y, activation, all);
-  const auto report = merson.advance(
-      all, duration_s, options_,
-      [&](const std::array<double, 64>& at, std::array<double, 64>& rate) {
-        PlanarDynamics::State s, r;
-        PlanarDynamics::Fibers a;
-        unpack(at, s, a);
-        dynamics.set_modes(dynamics.modes_at(s));
-        dynamics.evaluate(s, a, r);
-        pack(r, dynamics.activation_rate(a, excitation), rate);
-      },
-      [](const std::array<double, 64>& e) {
-        double worst = 0;
-        for (int i = 0; i < 64; ++i)
-          worst = std::max(worst, std::abs(e[i]) * (i < 24 || i >= 44 ? 1 : 10));
-        return worst;
-      });
-  unpack(all, y, activation);
+using State = PlanarDynamics::State;
+using simd::V4;
+
+namespace {
+
+constexpr double kTrack_s = 0.01;         // longest stretch whose activations are worked out ahead
+constexpr double kImplicitDownTo = 1e-4;  // accuracy
+constexpr double kCoordinate_s = 0.03, kFiber_m = 0.01;  // what an error of 1 is measured against
+
+void add(State& to, double factor, const State& what) {
+  for (int i = 0; i < State::kSize; ++i) to.y[i] += factor * what.y[i];
+}
+
+void fail(AdvanceReport& report, const char* why) {
+  report.ok = false;
+  report.failure = why;
+}
+
+}  // namespace
+
+PlanarIntegrator::PlanarIntegrator(const EngineOptions& options)
+    : options_(options),
+      implicit_(options.fixed_step || options.accuracy >= kImplicitDownTo),
+      hold_s_(std::clamp(0.1 * options.accuracy, 1e-6, 1e-4)) {}
+
+AdvanceReport PlanarIntegrator::advance(PlanarDynamics& dynamics, State& y, Fibers& activation,
+                                        const Fibers& excitation, double duration_s) {
+  AdvanceReport report;
+  // Enough nodes that the activations are exact beside the rest: theirs is a method of fourth
+  // order.
+  const double accuracy = options_.fixed_step ? 1e-3 : options_.accuracy;
+  const int nodes = static_cast<int>(std::ceil(8 * std::pow(accuracy / 1e-3, -0.25)));
+  const int tracks = std::max(1, static_cast<int>(std::ceil(duration_s / kTrack_s - 1e-9)));
+  for (int i = 0; i < tracks && report.ok; ++i) {
+    track_.build(dynamics, activation, excitation, duration_s / tracks, nodes);
+    const State before = y;
+    advance_track(dynamics, y, duration_s / tracks, report);
+    if (report.ok) {
+      activation = track_.end();
+    } else {
+      y = before;
+      restart();
+    }
+  }
   return report;
+}
+
+void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double duration_s,
+                                     AdvanceReport& report) {
+  if (step_s_ <= 0) step_s_ = kTrack_s / 10;
+  dynamics.set_modes(dynamics.modes_at(y));
+  double left = duration_s;
+  bool have_first = false;
+  double cut = 0;  // length of a step that ends where a path point switches
+  while (left > 0) {
+    if (report.evaluations + 5 > options_.max_evaluations) {
+      return fail(report, "the evaluations ran out");
+    }
+    const double wanted = options_.fixed_step ? options_.fixed_step_s : step_s_;
+    const double h = cut > 0 ? std::min(cut, next_step(left)) : next_step(left);
+    const double time = duration_s - left;
+    if (!have_first) {
+      evaluate(dynamics, y, time, first_, implicit_ ? &linear_ : nullptr);
+      ++report.evaluations;
+      have_first = true;
+    }
+    implicit_ ? rosenbrock_step(dynamics, y, time, h) : merson_step(dynamics, y, time, h);
+    report.evaluations += implicit_ ? 3 : 4;
+
+    const double relative = error() / options_.accuracy;
+    const bool finite = std::isfinite(relative);
+    // A force that jumps lets no error estimate pass: steps this small cross it. Where it jumps
+    // back and forth (O2), longer ones do after a while, and the state slides along the jump.
+    const bool patient = report.evaluations < options_.max_evaluations / 4;
+    const bool crosses = h <= (patient ? 1e-10 : 1e-5);
+    if (!finite && (crosses || options_.fixed_step)) return fail(report, "the state is not finite");
+    if (!finite || (relative > 1 && !crosses && !options_.fixed_step)) {
+      ++report.rejected;
+      cut = 0;
+      adapt(h, wanted, relative);
+      continue;
+    }
+    const PlanarDynamics::Modes modes = dynamics.modes_at(next_);
+    const bool switches = modes != dynamics.modes();
+    if (switches && cut == 0 && !options_.fixed_step && h > hold_s_ / 10) {
+      cut = std::max({crossing(dynamics, y, h), hold_s_ - since_switch_s_, hold_s_ / 10});
+      ++report.rejected;
+      continue;
+    }
+    y = next_;
+    left = h >= left ? 0 : left - h;
+    have_first = false;
+    cut = 0;
+    ++report.steps;
+    since_switch_s_ = switches ? 0 : since_switch_s_ + h;
+    if (switches) dynamics.set_modes(modes);
+    if (relative > 1) {
+      step_s_ = h;
+    } else {
+      adapt(h, wanted, relative);
+    }
+  }
+}
+
+/// The last steps share what is left rather than leave a sliver.
+double PlanarIntegrator::next_step(double left_s) const {
+  const double wanted = options_.fixed_step ? options_.fixed_step_s : step_s_;
+  if (wanted >= left_s * (1 - 1e-9)) return left_s;
+  return !options_.fixed_step && wanted > left_s / 2 ? left_s / 2 : wanted;
+}
+
+void PlanarIntegrator::adapt(double h, double wanted, double error) {
+  const bool good = error <= 1;
+  const double order = implicit_ ? 3 : 4;
+  const double factor =
+      std::isfinite(error) ? 0.85 * std::pow(std::max(error, 1e-6), -1 / order) : 0.1;
+  const double proposal = h * std::clamp(factor, 0.1, good ? (rejected_ ? 1 : 1.5) : 0.9);
+  // A step cut short says nothing against the longer one that was wanted.
+  step_s_ = good && h < wanted ? std::max(wanted, proposal) : proposal;
+  rejected_ = !good;
+}
+
+void PlanarIntegrator::evaluate(PlanarDynamics& dynamics, const State& y, double time_s,
+                                State& rate, PlanarLinear* linear) {
+  Fibers activation;
+  track_.at(time_s, activation);
+  dynamics.evaluate(y, activation, rate, linear);
+}
+
+void PlanarIntegrator::rosenbrock_step(PlanarDynamics& dynamics, const State& y, double time_s,
+                                       double h) {
+  constexpr const Rosenbrock& r = kRosenbrock;
+  solver_.factor(linear_, h * Rosenbrock::kGamma);
+  solver_.solve(linear_, first_, stage_[0]);
+  for (int i = 1; i < Rosenbrock::kStages; ++i) {
+    State at = y, rate;
+    for (int j = 0; j < i; ++j) add(at, r.at[i][j], stage_[j]);
+    evaluate(dynamics, at, time_s + r.time[i] * h, rate);
+    for (int j = 0; j < i; ++j) add(rate, r.carry[i][j] / h, stage_[j]);
+    solver_.solve(linear_, rate, stage_[i]);
+  }
+  next_ = y;
+  error_ = {};
+  for (int i = 0; i < Rosenbrock::kStages; ++i) {
+    add(next_, r.weight[i], stage_[i]);
+    add(error_, r.error[i], stage_[i]);
+  }
+}
+
+void PlanarIntegrator::merson_step(PlanarDynamics& dynamics, const State& y, double time_s,
+                                   double h) {
+  State at = y;
+  add(at, h / 3, first_);
+  evaluate(dynamics, at, time_s + h / 3, stage_[0]);
+  at = y;
+  add(at, h / 6, first_), add(at, h / 6, stage_[0]);
+  evaluate(dynamics, at, time_s + h / 3, stage_[1]);
+  at = y;
+  add(at, h / 8, first_), add(at, 3 * h / 8, stage_[1]);
+  evaluate(dynamics, at, time_s + h / 2, stage_[2]);
+  at = y;
+  add(at, h / 2, first_), add(at, -3 * h / 2, stage_[1]), add(at, 2 * h, stage_[2]);
+  evaluate(dynamics, at, time_s + h, stage_[3]);
+  next_ = y;
+  add(next_, h / 6, first_), add(next_, 2 * h / 3, stage_[2]), add(next_, h / 6, stage_[3]);
+  error_ = {};
+  add(error_, 0.2, next_), add(error_, -0.2, at);
+}
+
+double PlanarIntegrator::error() const {
+  V4 worst{}, sum{};  // the sum is not finite if any error is not
+  for (int i = 0; i < State::kSize; ++i) {
+    const double unit = i >= State::kFiber ? kFiber_m : i >= State::kU ? 1 : kCoordinate_s;
+    const V4 e = error_.y[i] / unit;
+    worst = simd::max(worst, simd::max(e, -e));
+    sum += e;
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (!std::isfinite(sum[i])) return sum[i];
+  }
+  return std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3]));
+}
+
+/// Time from y at which a path point switches before next_: by bisection on Hermite's cubic through
+/// both ends.
+double PlanarIntegrator::crossing(const PlanarDynamics& dynamics, const State& y, double h) const {
+  double low = 0, high = 1;
+  while ((high - low) * h > hold_s_ / 1000) {
+    const double x = 0.5 * (low + high), rest = 1 - x;
+    State at;
+    for (int i = 0; i < State::kU; ++i) {
+      at.y[i] = (1 + 2 * x) * rest * rest * y.y[i] + x * x * (3 - 2 * x) * next_.y[i] +
+                h * x * rest * (rest * y.y[State::kU + i] - x * next_.y[State::kU + i]);
+    }
+    (dynamics.modes_at(at) == dynamics.modes() ? low : high) = x;
+  }
+  return high * h;
 }
 
 }  // namespace stride

@@ -8,7 +8,10 @@ namespace stride {
 struct MuscleGroup {
   simd::V4 tendon_force_n;  // of the maximum force
   simd::V4 fiber_velocity_m_s;
-  simd::V4 stiffness_1_s;  // ∂(fibre velocity)/∂(fibre length)
+  simd::V4 fiber_1_s;           // ∂(fibre velocity)/∂(fibre length)
+  simd::V4 stretch_1_s;         // ∂(fibre velocity)/∂(path length)
+  simd::V4 tendon_stiffness_n;  // ∂(tendon force)/∂(path length), 1/m
+  simd::V4 cos_inverse;         // 1 / cos(pennation)
 };
 
 inline MuscleGroup muscle_group(const PlanarModel::Muscles& m, simd::V4 raw_activation,
@@ -56,14 +59,20 @@ inline MuscleGroup muscle_group(const PlanarModel::Muscles& m, simd::V4 raw_acti
 
   // The speed depends on force/isometric only, and the isometric force on the length through fal.
   const V4 inverse = 1 / length;
-  const V4 force_slope = -cos_inverse * cos_inverse *
-                             (fse_slope * m.slack_inverse +
-                              fse * m.width2 * inverse * inverse * inverse * cos_inverse) -
-                         fpe_slope * m.optimal_inverse;
+  const V4 tendon_stiffness = fse_slope * m.slack_inverse;
+  const V4 force_slope =
+      -cos_inverse * cos_inverse *
+          (tendon_stiffness + fse * m.width2 * inverse * inverse * inverse * cos_inverse) -
+      fpe_slope * m.optimal_inverse;
   const V4 fal_slope = -2 * excess * m.active_shape_inverse * m.optimal_inverse;  // relative
 
   const auto still = (fiber_length <= m.minimum_length) & (speed <= zero);
-  return {fse, still ? zero : speed, still ? zero : slope * (force_slope - force * fal_slope)};
+  return {fse,
+          still ? zero : speed,
+          still ? zero : slope * (force_slope - force * fal_slope),
+          still ? zero : slope * tendon_stiffness * cos_inverse,
+          tendon_stiffness,
+          cos_inverse};
 }
 
 /// activation_rate() of four muscles at once.

@@ -166,9 +166,9 @@ TEST(PlanarDynamics, KnowsHowFastFibersReturn) {
     const MuscleGroup found = muscle_group(m, a, length, path);
     for (int i = 0; i < 4; ++i) {
       // Away from the corners of the curves, where a difference straddles two slopes.
-      const double straddled = std::abs(muscle_group(m, a, length + 2 * h, path).stiffness_1_s[i] -
-                                        muscle_group(m, a, length - 2 * h, path).stiffness_1_s[i]);
-      EXPECT_NEAR(found.stiffness_1_s[i], slope[i], 1e-4 * std::abs(slope[i]) + straddled + 1e-6);
+      const double straddled = std::abs(muscle_group(m, a, length + 2 * h, path).fiber_1_s[i] -
+                                        muscle_group(m, a, length - 2 * h, path).fiber_1_s[i]);
+      EXPECT_NEAR(found.fiber_1_s[i], slope[i], 1e-4 * std::abs(slope[i]) + straddled + 1e-6);
     }
   }
 }
