@@ -218,8 +218,7 @@ Camera Motion::camera(double time_s) const {
   camera.from_left = clip_.to_left;
   if (clip_.camera_follows)
     camera.x_m += grounding_.speed_m_s * time_s + clip_.sway_m * slow(sway_x_, time_s);
-  const double duration_s = clip_.frames / clip_.rate_hz;
-  camera.focal_px *= 1 + clip_.zoom * (time_s / duration_s - 0.5);
+  camera.focal_px *= 1 + clip_.zoom * (time_s / clip_.duration_s() - 0.5);
   if (clip_.camera_follows)
     camera.center_v_px += 0.15 * clip_.sway_m / camera.metres_per_pixel() * slow(sway_y_, time_s);
   return camera;

@@ -13,12 +13,13 @@ namespace stride::videos {
 /// Everything that makes a clip; the same clip gives the same frames.
 struct Clip {
   std::string name, description;
-  std::string character = "man";  // man, woman, boy, game, cartoon; markers: for tests
+  std::string character = "man";  // man, woman, veteran, game, cartoon; markers: for tests
   std::string scene = "track";    // track, street, gym, arena, meadow; dark: for tests
   std::uint64_t seed = 1;
   int width_px = 640, height_px = 360;
   double rate_hz = 30;
   int frames = 96;
+  double slow_motion = 1;  // seconds of video a second of the runner
 
   Gait gait;
   Proportions proportions;
@@ -36,7 +37,12 @@ struct Clip {
   int samples = 14;          // a pixel: through the shutter's time and the pixel's area
   double noise_grey = 2.4;   // of the sensor, of 255
   double click_sd_px = 1.5;  // of a person's hand
-  double vignette = 0.09;    // darkening toward the corners
+  std::uint64_t click_seed = 0;
+  double vignette = 0.09;  // darkening toward the corners
+
+  /// Of the runner, as every time here.
+  double time_s(double frame) const { return frame / (rate_hz * slow_motion); }
+  double duration_s() const { return time_s(frames); }
 };
 
 /// A clip with what follows from it.

@@ -61,6 +61,23 @@ std::unique_ptr<Scene> make_scene(const Clip& clip) {
   throw Error(fmt::format("clip {}: scene '{}': is none", clip.name, clip.scene));
 }
 
+/// What lens and sensor make of the light of a frame.
+cv::Mat developed(const cv::Mat& light, const Clip& clip, int index) {
+  Normal normal(clip.seed * 104729 + static_cast<std::uint64_t>(index));
+  cv::Mat picture(light.size(), CV_8UC3);
+  for (int v = 0; v < light.rows; ++v)
+    for (int u = 0; u < light.cols; ++u) {
+      const double x = 2.0 * u / light.cols - 1, y = 2.0 * v / light.rows - 1;
+      const double vignette = 1 - clip.vignette * (x * x + y * y);
+      for (int c = 0; c < 3; ++c) {
+        const double value = 255 * vignette * light.at<Colour>(v, u)[c];
+        const double noise = clip.noise_grey > 0 ? clip.noise_grey * normal() : 0;
+        picture.at<cv::Vec3b>(v, u)[c] = cv::saturate_cast<uchar>(value + noise);
+      }
+    }
+  return picture;
+}
+
 }  // namespace
 
 struct Renderer::Parts {
@@ -82,10 +99,9 @@ cv::Mat Renderer::frame(int index) const {
   for (int i = 0; i < clip.samples; ++i) {
     // The samples of a pixel lie on a rotated lattice over its area and equally spaced in time.
     const double du = (i + uniform(jitter)) / clip.samples - 0.5;
-    const double dv =
-        std::fmod((i * 5 + 2) % clip.samples + uniform(jitter), clip.samples) / clip.samples - 0.5;
+    const double dv = ((i * 5 + 2) % clip.samples + uniform(jitter)) / clip.samples - 0.5;
     const double open = clip.shutter * (((i * 3 + 1) % clip.samples + 0.5) / clip.samples - 0.5);
-    const double time_s = (index + open) / clip.rate_hz;
+    const double time_s = clip.time_s(index + open);
     const Skeleton skeleton = motion.skeleton(time_s);
     const Camera camera = motion.camera(time_s);
     parts_->scene->paint(camera, du, dv, cast_shadow(skeleton), motion.belt_m(time_s), sample);
@@ -95,23 +111,14 @@ cv::Mat Renderer::frame(int index) const {
     sum += sample;
   }
   sum /= clip.samples;
-  Normal normal(clip.seed * 104729 + static_cast<std::uint64_t>(index));
-  cv::Mat picture(sum.size(), CV_8UC3);
-  for (int v = 0; v < sum.rows; ++v)
-    for (int u = 0; u < sum.cols; ++u) {
-      const double x = 2.0 * u / sum.cols - 1, y = 2.0 * v / sum.rows - 1;
-      const double vignette = 1 - clip.vignette * (x * x + y * y);
-      for (int c = 0; c < 3; ++c) {
-        const double value = 255 * vignette * sum.at<Colour>(v, u)[c];
-        const double noise = clip.noise_grey > 0 ? clip.noise_grey * normal() : 0;
-        picture.at<cv::Vec3b>(v, u)[c] = cv::saturate_cast<uchar>(value + noise);
-      }
-    }
-  return picture;
+  return developed(sum, clip, index);
 }
 
 void write_video(const Clip& clip, const std::filesystem::path& file,
                  const std::function<void(int)>& progress) {
+  require(clip.width_px % 2 == 0 && clip.height_px % 2 == 0,
+          "clip {}: {}×{} px: H.264 wants even sizes; choose another scale", clip.name,
+          clip.width_px, clip.height_px);
   cv::VideoWriter writer(file.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
                          clip.rate_hz, {clip.width_px, clip.height_px});
   require(writer.isOpened(), "{}: cannot be written as H.264 by this OpenCV", file.string());

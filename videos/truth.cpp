@@ -28,12 +28,12 @@ Trajectory truth_px(const Clip& clip) {
   trajectory.video = clip.name + ".mp4";
   trajectory.width_px = clip.width_px;
   trajectory.height_px = clip.height_px;
-  trajectory.rate_hz = clip.rate_hz;
+  trajectory.rate_hz = clip.rate_hz * clip.slow_motion;
   trajectory.direction = direction(clip);
   for (int i = 0; i < clip.frames; ++i) {
     TrajectoryFrame& frame = trajectory.frames.emplace_back();
     frame.frame = i;
-    frame.time_s = i / clip.rate_hz;
+    frame.time_s = clip.time_s(i);
     const Skeleton skeleton = motion.skeleton(frame.time_s);
     const Camera camera = motion.camera(frame.time_s);
     for (const BodyPart part : kBodyParts) frame[part] = {camera.project(skeleton[part]), 1};
@@ -43,7 +43,6 @@ Trajectory truth_px(const Clip& clip) {
 
 Table truth_m(const Clip& clip) {
   const Motion motion(clip);
-  const double duration_s = clip.frames / clip.rate_hz;
   Table table;
   table.format = "truth";
   table.set_meta("unit", "m, rad");
@@ -55,7 +54,7 @@ Table truth_m(const Clip& clip) {
   };
   number("period_s", clip.gait.period_s);
   number("speed_m_s", motion.speed_m_s());
-  number("metres_per_pixel", motion.camera(duration_s / 2).metres_per_pixel());
+  number("metres_per_pixel", motion.camera(clip.duration_s() / 2).metres_per_pixel());
   number("camera_roll_rad", clip.camera.roll_rad);
   number("thigh_m", clip.proportions.thigh);
   number("shank_m", clip.proportions.shank);
@@ -67,7 +66,7 @@ Table truth_m(const Clip& clip) {
     for (const char* axis : {"x", "y"})
       table.columns.push_back(fmt::format("{}_{}", name(part), axis));
   for (int i = 0; i < clip.frames; ++i) {
-    const double time_s = i / clip.rate_hz;
+    const double time_s = clip.time_s(i);
     const Skeleton s = motion.skeleton(time_s);
     std::vector<double> row{
         static_cast<double>(i), time_s,       s.phase,     motion.camera(time_s).metres_per_pixel(),
@@ -92,9 +91,10 @@ Keypoints clicks(const Clip& clip) {
   keypoints.height_px = clip.height_px;
   keypoints.direction = direction(clip);
   if (clip.treadmill) keypoints.treadmill = true;
+  keypoints.slow_motion = clip.slow_motion;
   keypoints.near_leg = clip.to_left ? "left" : "right";
-  Normal normal(clip.seed * 15485863);
-  const double step = clip.gait.period_s * clip.rate_hz / kClicksPerStride;
+  Normal normal(clip.seed * 15485863 + clip.click_seed);
+  const double step = clip.gait.period_s / clip.time_s(kClicksPerStride);
   for (double at = 0; at < clip.frames - 0.5; at += step) {
     const TrajectoryFrame& frame = truth.frames[static_cast<std::size_t>(std::lround(at))];
     ClickedFrame& clicked = keypoints.frames[frame.frame];

@@ -4,19 +4,10 @@
 
 #include "videos/costume.h"
 #include "videos/truth.h"
+#include "videos/variant.h"
 
 namespace stride::videos {
 namespace {
-
-Clip small(const Clip& of) {
-  Clip clip = of;
-  clip.width_px /= 2;
-  clip.height_px /= 2;
-  clip.camera.focal_px /= 2;
-  clip.camera.center_u_px /= 2;
-  clip.camera.center_v_px /= 2;
-  return clip;
-}
 
 // The truth projects points; the painter maps pixels back. They meet in the picture.
 TEST(Render, PaintsEveryPartWhereTheTruthSays) {
@@ -24,7 +15,7 @@ TEST(Render, PaintsEveryPartWhereTheTruthSays) {
   clip.character = "markers";
   clip.scene = "dark";
   clip.noise_grey = clip.vignette = clip.shutter = 0;
-  clip.samples = 25;
+  clip.samples = 24;
   const Renderer renderer(clip);
   const Trajectory truth = truth_px(clip);
   for (const int index : {0, 31, 80}) {
@@ -47,7 +38,7 @@ TEST(Render, PaintsEveryPartWhereTheTruthSays) {
 }
 
 TEST(Render, GivesTheSamePictureForTheSameSeedOnly) {
-  Clip clip = small(stride::videos::clip("human"));
+  Clip clip = resized(stride::videos::clip("human"), 0.5);
   clip.samples = 2;
   const cv::Mat picture = Renderer(clip).frame(5), again = Renderer(clip).frame(5);
   EXPECT_EQ(cv::norm(picture, again, cv::NORM_INF), 0);
@@ -56,7 +47,7 @@ TEST(Render, GivesTheSamePictureForTheSameSeedOnly) {
 }
 
 TEST(Render, ShowsARunnerWhereTheTruthSays) {
-  Clip clip = small(stride::videos::clip("human"));
+  Clip clip = resized(stride::videos::clip("human"), 0.5);
   clip.samples = 4;
   const int index = 12;
   const cv::Mat with = Renderer(clip).frame(index);
