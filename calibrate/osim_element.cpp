@@ -71,7 +71,9 @@ std::vector<OsimElement> OsimElement::objects(const char* tag) const {
   const OsimElement set = child(tag);
   if (!set) return {};
   const OsimElement inner = set.child("objects");
-  return inner ? inner.children() : set.children();
+  std::vector<OsimElement> all = (inner ? inner : set).children();
+  std::erase_if(all, [](const OsimElement& each) { return each.tag() == "groups"; });
+  return all;
 }
 
 OsimElement OsimElement::object(const char* tag) const {
@@ -88,6 +90,8 @@ OsimElement OsimElement::object(const char* tag) const {
 void OsimElement::only(std::initializer_list<std::string_view> read) const {
   for (const OsimElement& each : children()) {
     const std::string tag = each.tag();
+    const bool says_nothing = each.children().empty() && each.text().empty();
+    if (says_nothing) continue;
     if (std::find(read.begin(), read.end(), tag) != read.end()) continue;
     if (std::find(read.begin(), read.end(), each.name()) != read.end()) continue;
     if (std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), tag) !=
@@ -102,10 +106,8 @@ void OsimElement::only(std::initializer_list<std::string_view> read) const {
 void OsimElement::none_of(std::initializer_list<const char*> sets) const {
   for (const char* set : sets)
     for (const OsimElement& each : objects(set))
-      if (each.tag() != "groups")
-        each.fail(fmt::format(
-            "<{}> is not understood, and it might change the motion; take it out of the model",
-            set));
+      each.fail(fmt::format(
+          "<{}> is not understood, and it might change the motion; take it out of the model", set));
 }
 
 std::string OsimElement::text() const {

@@ -81,7 +81,8 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
     // A force that jumps lets no error estimate pass: steps this small cross it. Where it jumps
     // back and forth (O2), longer ones do after a while, and the state slides along the jump.
     const bool patient = report.evaluations < options_.max_evaluations / 4;
-    const bool crosses = h <= (patient ? 1e-10 : 1e-5);
+    const double crossing_s = patient ? 1e-10 : 1e-5;
+    const bool crosses = h <= crossing_s;
     if (!finite && (crosses || options_.fixed_step)) return fail(report, "the state is not finite");
     if (!finite || (relative > 1 && !crosses && !options_.fixed_step)) {
       ++report.rejected;
@@ -104,7 +105,7 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
     since_switch_s_ = switches ? 0 : since_switch_s_ + h;
     if (switches) dynamics.set_modes(modes);
     if (relative > 1) {
-      step_s_ = h;
+      step_s_ = std::max(h, crossing_s);
     } else {
       adapt(h, wanted, relative);
     }

@@ -59,7 +59,7 @@ class SimbodyEngine final : public Engine {
   };
 
   void place(const double* q, const double* u);
-  void push(int body, const Vec3& point, const Vec3& force);
+  void push(int body, const Vec3& point, double fx, double fy);
   Vec3 point_on(int body, const Vec3& location) const;
   Planar velocity_of(int body, const Vec3& point) const;
   void add_gravity();
@@ -84,9 +84,16 @@ class SimbodyEngine final : public Engine {
   MersonIntegrator<kStates> integrator_;
 
   RunnerState state_;
-  // Of the last place(): all coordinates of the model, and every body.
+  // Of the last place(): all coordinates of the model, every body, and where each of Simbody's
+  // bodies has its origin.
   std::vector<double> q_, u_;
   std::vector<BodyFrame> frames_;
+  std::vector<SimTK::Vec3> origins_;
+  // Of the last add_forces(), on each of Simbody's bodies: what moves it in the plane.
+  struct Wrench {
+    double torque = 0, fx = 0, fy = 0;  // about the body's origin
+  };
+  std::vector<Wrench> wrenches_;
   SimTK::Vector mobility_forces_, udot_;
   SimTK::Vector_<SimTK::SpatialVec> body_forces_, accelerations_;
 };
@@ -127,6 +134,8 @@ SimbodyEngine::SimbodyEngine(const Model& model, const EngineOptions& options)
   udot_.resize(kCoordinates);
   body_forces_.resize(skeleton_.matter.getNumBodies());
   accelerations_.resize(skeleton_.matter.getNumBodies());
+  origins_.resize(skeleton_.matter.getNumBodies(), SimTK::Vec3(0));
+  wrenches_.resize(skeleton_.matter.getNumBodies());
 }
 
 void SimbodyEngine::set_state(const RunnerState& state) {
@@ -155,38 +164,46 @@ void SimbodyEngine::equilibrate_fibers() {
 /// Moves Simbody's bodies to q and u (in the runner's order) and reads every body's frame.
 void SimbodyEngine::place(const double* q, const double* u) {
   SimTK::State& s = skeleton_.state;
-  SimTK::Vector& all_q = s.updQ();
-  SimTK::Vector& all_u = s.updU();
+  double* all_q = &s.updQ()[0];
+  double* all_u = &s.updU()[0];
   for (int i = 0; i < kCoordinates; ++i) {
     all_q[skeleton_.slot[i]] = q_[layout_.coordinate[i]] = q[i];
     all_u[skeleton_.slot[i]] = u_[layout_.coordinate[i]] = u[i];
   }
   skeleton_.system.realize(s, SimTK::Stage::Velocity);
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const SimbodySkeleton::Placement& placement = skeleton_.bodies[i];
-    const SimTK::MobilizedBody& root = skeleton_.matter.getMobilizedBody(placement.root);
-    const SimTK::Transform& x = root.getBodyTransform(s);
-    const SimTK::SpatialVec& v = root.getBodyVelocity(s);
-    const SimTK::Vec3 arm = x.R() * placement.in_root.p();
-    const SimTK::Rotation turn = x.R() * placement.in_root.R();
+    const SimbodySkeleton::Placement& at = skeleton_.bodies[i];
     BodyFrame& frame = frames_[i];
-    for (int k = 0; k < 3; ++k) frame.origin_m[k] = x.p()[k] + arm[k];
-    frame.cos = turn[0][0], frame.sin = turn[1][0];
-    frame.omega_rad_s = v[0][2];
-    frame.vx_m_s = v[1][0] - v[0][2] * arm[1];
-    frame.vy_m_s = v[1][1] + v[0][2] * arm[0];
+    if (at.leader < 0) {
+      const SimTK::MobilizedBody& root = skeleton_.matter.getMobilizedBody(at.root);
+      const SimTK::Transform& x = root.getBodyTransform(s);
+      const SimTK::SpatialVec& v = root.getBodyVelocity(s);
+      origins_[at.root] = x.p();
+      frame = {{x.p()[0], x.p()[1], x.p()[2]}, x.R()[0][0], x.R()[1][0], v[1][0], v[1][1], v[0][2]};
+      continue;
+    }
+    const BodyFrame& leader = frames_[at.leader];
+    const double x = leader.cos * at.x - leader.sin * at.y,
+                 y = leader.sin * at.x + leader.cos * at.y;
+    frame.origin_m = {leader.origin_m[0] + x, leader.origin_m[1] + y, leader.origin_m[2] + at.z};
+    frame.cos = leader.cos * at.cos - leader.sin * at.sin;
+    frame.sin = leader.sin * at.cos + leader.cos * at.sin;
+    frame.vx_m_s = leader.vx_m_s - leader.omega_rad_s * y;
+    frame.vy_m_s = leader.vy_m_s + leader.omega_rad_s * x;
+    frame.omega_rad_s = leader.omega_rad_s;
   }
 }
 
-/// A force at a point of the ground's axes on a body; the ground (-1) takes what it gets.
-void SimbodyEngine::push(int body, const Vec3& point, const Vec3& force) {
+/// A force at a point of the ground's axes on a body; the ground (-1) takes what it gets. What
+/// leaves the plane is borne by the joints.
+void SimbodyEngine::push(int body, const Vec3& point, double fx, double fy) {
   if (body < 0) return;
   const SimTK::MobilizedBodyIndex root = skeleton_.bodies[body].root;
-  const SimTK::Vec3& origin =
-      skeleton_.matter.getMobilizedBody(root).getBodyTransform(skeleton_.state).p();
-  const SimTK::Vec3 f(force[0], force[1], force[2]);
-  const SimTK::Vec3 arm(point[0] - origin[0], point[1] - origin[1], point[2] - origin[2]);
-  body_forces_[root] += SimTK::SpatialVec(arm % f, f);
+  const SimTK::Vec3& origin = origins_[root];
+  Wrench& sum = wrenches_[root];
+  sum.torque += (point[0] - origin[0]) * fy - (point[1] - origin[1]) * fx;
+  sum.fx += fx;
+  sum.fy += fy;
 }
 
 /// A point fixed in a body, in the ground.
@@ -206,13 +223,10 @@ Planar SimbodyEngine::velocity_of(int body, const Vec3& point) const {
 }
 
 void SimbodyEngine::add_gravity() {
-  const SimTK::Vec3 g(model_.gravity_m_s2[0], model_.gravity_m_s2[1], model_.gravity_m_s2[2]);
-  for (SimTK::MobilizedBodyIndex i(1); i < skeleton_.matter.getNumBodies(); ++i) {
-    const SimTK::MobilizedBody& body = skeleton_.matter.getMobilizedBody(i);
-    const SimTK::MassProperties& mass = body.getBodyMassProperties(skeleton_.state);
-    const SimTK::Vec3 weight = mass.getMass() * g;
-    const SimTK::Vec3 arm = body.getBodyTransform(skeleton_.state).R() * mass.getMassCenter();
-    body_forces_[i] += SimTK::SpatialVec(arm % weight, weight);
+  for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+    const Body& body = model_.bodies[i];
+    push(static_cast<int>(i), point_on(static_cast<int>(i), body.mass_center_m),
+         body.mass_kg * model_.gravity_m_s2[0], body.mass_kg * model_.gravity_m_s2[1]);
   }
 }
 
@@ -228,8 +242,7 @@ void SimbodyEngine::add_muscles(const States& y) {
     muscle.fiber_velocity_m_s = forces.fiber_velocity_m_s;
     for (int n = 0; n < count; ++n) {
       const PathNode& node = nodes_[n];
-      push(node.body, node.position_m,
-           {tension * node.pull[0], tension * node.pull[1], tension * node.pull[2]});
+      push(node.body, node.position_m, tension * node.pull[0], tension * node.pull[1]);
       if (node.coordinate >= 0 && mobility_[node.coordinate] >= 0)
         mobility_forces_[mobility_[node.coordinate]] += tension * pull_on_coordinate(node);
     }
@@ -262,10 +275,10 @@ void SimbodyEngine::add_foot(Foot& foot) {
     if (normal <= 0 && options_.drop_contacts) return;
     if (normal <= 0) continue;
     const double friction = friction_force(foot.law, normal, std::abs(velocity.x));
-    const Vec3 force{-std::copysign(friction, velocity.x), normal, 0};
-    push(sphere.body, point, force);
-    foot.reaction_N.x += force[0];
-    foot.reaction_N.y += force[1];
+    const double along = -std::copysign(friction, velocity.x);
+    push(sphere.body, point, along, normal);
+    foot.reaction_N.x += along;
+    foot.reaction_N.y += normal;
   }
 }
 
@@ -287,13 +300,13 @@ void SimbodyEngine::add_obstacle(const Ball& ball) {
     const double radius =
         ball.obstacle.radius_m * sphere.radius_m / (ball.obstacle.radius_m + sphere.radius_m);
     const double force = std::max(normal_force(ball.law, radius, depth, approach), 0.0);
-    push(sphere.body, point, {force * normal[0], force * normal[1], force * normal[2]});
+    push(sphere.body, point, force * normal[0], force * normal[1]);
   }
 }
 
 void SimbodyEngine::add_forces(const States& y) {
   mobility_forces_.setToZero();
-  body_forces_.setToZero();
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   add_gravity();
   add_muscles(y);
   for (Foot& foot : feet_) add_foot(foot);
@@ -307,12 +320,17 @@ void SimbodyEngine::add_forces(const States& y) {
 void SimbodyEngine::evaluate(const States& y, const Excitations& excitations, States& rate) {
   place(y.data(), y.data() + kU);
   add_forces(y);
+  SimTK::SpatialVec* on_bodies = &body_forces_[0];
+  for (std::size_t i = 0; i < wrenches_.size(); ++i)
+    on_bodies[i] = {SimTK::Vec3(0, 0, wrenches_[i].torque),
+                    SimTK::Vec3(wrenches_[i].fx, wrenches_[i].fy, 0)};
   skeleton_.system.realize(skeleton_.state, SimTK::Stage::Dynamics);
   skeleton_.matter.calcAccelerationIgnoringConstraints(skeleton_.state, mobility_forces_,
                                                        body_forces_, udot_, accelerations_);
+  const double* udot = &udot_[0];
   for (int i = 0; i < kCoordinates; ++i) {
     rate[i] = y[kU + i];
-    rate[kU + i] = udot_[skeleton_.slot[i]];
+    rate[kU + i] = udot[skeleton_.slot[i]];
   }
   for (int i = 0; i < kMuscles; ++i) {
     rate[kActivation + i] = activation_rate(muscles_[i].law, y[kActivation + i], excitations[i]);

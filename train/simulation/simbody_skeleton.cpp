@@ -154,27 +154,29 @@ PlanarMotion::At PlanarMotion::at(double q) const {
 
 SimbodySkeleton::SimbodySkeleton(const Model& model, const RunnerLayout& layout)
     : matter(system), bodies(model.bodies.size()) {
-  // Which body of the model each one moves with, and where in it.
-  std::vector<int> root(model.bodies.size());
-  std::vector<SimTK::MassProperties> mass(model.bodies.size(),
-                                          {0, SimTK::Vec3(0), SimTK::Inertia(0)});
+  // Bodies that stand still on their parent join the body that leads it; what is fixed to the
+  // ground leads itself.
+  const std::size_t n = model.bodies.size();
+  std::vector<SimTK::Transform> in_leader(n);
+  std::vector<SimTK::MassProperties> mass(n, {0, SimTK::Vec3(0), SimTK::Inertia(0)});
   for (const Joint& joint : model.joints) {
-    root[joint.child] = joint.child;
+    int leader = joint.child;
     if (stands_still(model, joint) && joint.parent >= 0) {
-      root[joint.child] = root[joint.parent];
-      bodies[joint.child].in_root = bodies[joint.parent].in_root * frame_in_parent(joint) *
-                                    default_transform(model, joint) * ~frame_in_child(joint);
+      leader = bodies[joint.parent].leader < 0 ? joint.parent : bodies[joint.parent].leader;
+      const SimTK::Transform x = in_leader[joint.parent] * frame_in_parent(joint) *
+                                 default_transform(model, joint) * ~frame_in_child(joint);
+      in_leader[joint.child] = x;
+      bodies[joint.child] = {{}, leader, x.p()[0], x.p()[1], x.p()[2], x.R()[0][0], x.R()[1][0]};
     }
-    SimTK::MassProperties& sum = mass[root[joint.child]];
-    sum = together(sum, mass_properties(model.bodies[joint.child])
-                            .calcTransformedMassProps(~bodies[joint.child].in_root));
+    mass[leader] = together(mass[leader], mass_properties(model.bodies[joint.child])
+                                              .calcTransformedMassProps(~in_leader[joint.child]));
   }
-  for (const Joint& joint : model.joints) {
-    Placement& placement = bodies[joint.child];
-    placement.root = root[joint.child] == joint.child
-                         ? mobilize(model, joint, mass[joint.child]).getMobilizedBodyIndex()
-                         : bodies[joint.parent].root;
-  }
+  for (const Joint& joint : model.joints)
+    if (bodies[joint.child].leader < 0)
+      mobilize(model, joint, joint.parent < 0 ? SimTK::Transform() : in_leader[joint.parent],
+               mass[joint.child]);
+    else
+      bodies[joint.child].root = bodies[bodies[joint.child].leader].root;
   state = system.realizeTopology();
   system.realizeModel(state);
   int free = 0;
@@ -185,31 +187,36 @@ SimbodySkeleton::SimbodySkeleton(const Model& model, const RunnerLayout& layout)
     }
 }
 
-SimTK::MobilizedBody SimbodySkeleton::mobilize(const Model& model, const Joint& joint,
-                                               const SimTK::MassProperties& mass) {
-  const Placement parent = joint.parent < 0 ? Placement{} : bodies[joint.parent];
-  SimTK::MobilizedBody& on = matter.updMobilizedBody(parent.root);
-  const SimTK::Transform inboard = parent.in_root * frame_in_parent(joint);
+void SimbodySkeleton::mobilize(const Model& model, const Joint& joint,
+                               const SimTK::Transform& parent_in_root,
+                               const SimTK::MassProperties& mass) {
+  const SimTK::MobilizedBodyIndex parent =
+      joint.parent < 0 ? SimTK::MobilizedBodyIndex(0) : bodies[joint.parent].root;
+  SimTK::MobilizedBody& on = matter.updMobilizedBody(parent);
+  const SimTK::Transform inboard = parent_in_root * frame_in_parent(joint);
   const SimTK::Transform outboard = frame_in_child(joint);
   const SimTK::Body::Rigid body(mass);
-  int free = 0;
-  for (int coordinate : joint.coordinates) free += !model.coordinates[coordinate].locked;
-  require(free == 0 || free == static_cast<int>(joint.coordinates.size()),
-          "joint {}: some of its coordinates are locked and others are not; lock all or none",
-          joint.name);
-  if (free == 0) return SimTK::MobilizedBody::Weld(on, inboard, body, outboard);
-  if (joint.type == Joint::Type::planar)
-    return SimTK::MobilizedBody::Planar(on, inboard, body, outboard);
-  if (joint.type == Joint::Type::pin) return SimTK::MobilizedBody::Pin(on, inboard, body, outboard);
-  // Slots are given out in the order of mobilized bodies.
-  int slot_of_this = 0;
-  for (const Joint& before : model.joints) {
-    if (&before == &joint) break;
-    if (!stands_still(model, before)) slot_of_this += static_cast<int>(before.coordinates.size());
-  }
-  return SimTK::MobilizedBody::Custom(
-      on, new PlanarMobilizer(matter, PlanarMotion(model, joint), slot_of_this), inboard, body,
-      outboard);
+  const auto made = [&]() -> SimTK::MobilizedBody {
+    if (stands_still(model, joint)) return SimTK::MobilizedBody::Weld(on, inboard, body, outboard);
+    for (int coordinate : joint.coordinates)
+      require(!model.coordinates[coordinate].locked,
+              "joint {}: some of its coordinates are locked and others are not; lock all or none",
+              joint.name);
+    if (joint.type == Joint::Type::planar)
+      return SimTK::MobilizedBody::Planar(on, inboard, body, outboard);
+    if (joint.type == Joint::Type::pin)
+      return SimTK::MobilizedBody::Pin(on, inboard, body, outboard);
+    // Slots are given out in the order of mobilized bodies.
+    int slot_of_this = 0;
+    for (const Joint& before : model.joints) {
+      if (&before == &joint) break;
+      if (!stands_still(model, before)) slot_of_this += static_cast<int>(before.coordinates.size());
+    }
+    return SimTK::MobilizedBody::Custom(
+        on, new PlanarMobilizer(matter, PlanarMotion(model, joint), slot_of_this), inboard, body,
+        outboard);
+  };
+  bodies[joint.child].root = made().getMobilizedBodyIndex();
 }
 
 }  // namespace stride

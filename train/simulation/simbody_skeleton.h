@@ -39,10 +39,11 @@ class SimbodySkeleton {
  public:
   SimbodySkeleton(const Model& model, const RunnerLayout& layout);
 
-  /// Where a body of Model::bodies is: fixed in a body of Simbody's.
+  /// Where a body of Model::bodies is: it is one of Simbody's, or fixed in a leader that is.
   struct Placement {
     SimTK::MobilizedBodyIndex root{0};
-    SimTK::Transform in_root;
+    int leader = -1;                               // index into Model::bodies; -1: itself
+    double x = 0, y = 0, z = 0, cos = 1, sin = 0;  // in the leader
   };
 
   SimTK::MultibodySystem system;
@@ -52,8 +53,8 @@ class SimbodySkeleton {
   SimTK::State state;
 
  private:
-  SimTK::MobilizedBody mobilize(const Model& model, const Joint& joint,
-                                const SimTK::MassProperties& mass);
+  void mobilize(const Model& model, const Joint& joint, const SimTK::Transform& parent_in_root,
+                const SimTK::MassProperties& mass);
 };
 
 }  // namespace stride
