@@ -4,12 +4,14 @@
 
 namespace stride {
 
+void add_bench_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_train_command(CLI::App& app);
 
 void add_train_commands(CLI::App& app) {
   add_simulate_command(app);
   add_train_command(app);
+  add_bench_command(app);
 }
 
 }  // namespace stride
