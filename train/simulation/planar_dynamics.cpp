@@ -186,77 +186,77 @@ void PlanarDynamics::place(const State& state, Kinematics& k) {
                        k.omega[2] * perp(knee_to_ankle);
 }
 
-void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation, Kinematics& k,
-                                  State& rate, std::array<V2, 3>& torque, PlanarLinear* linear) {
+/// Lengths and moment arms of all muscles.
+void PlanarDynamics::measure_paths(const Kinematics& k, Arms& arms,
+                                   std::array<V2, 10>& lengths) const {
   const Pair joint[3] = {k.origin[1], k.hinge, k.origin[3]};
-  // All points first: positions relative to the pelvis.
-  alignas(16) double px[PlanarModel::kMostPoints][2], py[PlanarModel::kMostPoints][2];
+  Pair at[PlanarModel::kMostPoints];
   const int points = static_cast<int>(model_.points.size());
   for (int i = 0; i < points; ++i) {
     const PlanarModel::Point& p = model_.points[i];
     const Pair local = p.function < 0 ? Pair{p.x_m, p.y_m} : k.moving[p.function];
-    const Pair at = k.origin[p.segment] + k.turn(p.segment, local);
-    store(px[i], at.x), store(py[i], at.y);
+    at[i] = k.origin[p.segment] + k.turn(p.segment, local);
   }
-  alignas(32) double lengths[4 * kGroups];
-  V2 arm[PlanarModel::kMusclesOfLeg][3];
   for (int m = 0; m < PlanarModel::kMusclesOfLeg; ++m) {
     const PlanarModel::MusclePath& muscle = model_.paths[m];
     const PlanarModel::Path& first = muscle.variants[modes_[m][0]][0];
     const PlanarModel::Path& second = muscle.variants[modes_[m][1]][1];
     V2 length{first.constant_m, second.constant_m};
-    for (int j = 0; j < 3; ++j) arm[m][j] = V2{};
+    std::array<V2, 3>& arm = arms[m];
+    arm = {};
     for (int n = 0; n < muscle.pieces; ++n) {
       const PlanarModel::Piece &a = first.pieces[n], &b = second.pieces[n];
-      const Pair outer{V2{px[a.outer][0], px[b.outer][1]}, V2{py[a.outer][0], py[b.outer][1]}};
-      const Pair inner{V2{px[a.inner][0], px[b.inner][1]}, V2{py[a.inner][0], py[b.inner][1]}};
-      const V2 dz{model_.points[a.outer].z_m[0] - model_.points[a.inner].z_m[0],
-                  model_.points[b.outer].z_m[1] - model_.points[b.inner].z_m[1]};
+      const Pair outer{V2{at[a.outer].x[0], at[b.outer].x[1]},
+                       V2{at[a.outer].y[0], at[b.outer].y[1]}};
+      const Pair inner{V2{at[a.inner].x[0], at[b.inner].x[1]},
+                       V2{at[a.inner].y[0], at[b.inner].y[1]}};
       const Pair d = outer - inner;
+      const V2 dz{a.dz_m, b.dz_m}, weight{a.weight, b.weight};
       const V2 piece = simd::sqrt(dot(d, d) + dz * dz);
-      const V2 weight{a.weight, b.weight};
       const Pair along = weight / piece * d;
       length += weight * piece;
       for (int j = muscle.first_joint; j <= muscle.last_joint; ++j) {
-        arm[m][j] += V2{a.crosses[j], b.crosses[j]} * cross(outer - joint[j], along);
+        arm[j] += V2{a.crosses[j], b.crosses[j]} * cross(outer - joint[j], along);
       }
-      if (muscle.moving) {
-        for (int leg = 0; leg < kLegs; ++leg) {
-          const PlanarModel::Piece& end = leg == 0 ? a : b;
-          for (const bool at_outer : {true, false}) {
-            const PlanarModel::Point& p = model_.points[at_outer ? end.outer : end.inner];
-            if (p.function < 0) continue;
-            const Pair slope = k.turn(p.segment, k.moving_slope[p.function]);
-            arm[m][1][leg] += (at_outer ? 1 : -1) * dot(slope, along)[leg];
-          }
-        }
+      if (muscle.moving >= 0) {
+        const PlanarModel::Point& p = model_.points[muscle.moving];
+        arm[1] += V2{a.moves, b.moves} * dot(k.turn(p.segment, k.moving_slope[p.function]), along);
       }
     }
-    store(&lengths[2 * m], length);
+    lengths[m] = length;
   }
-  lengths[18] = lengths[16], lengths[19] = lengths[17];
-  alignas(32) double tension[4 * kGroups];
+  lengths[9] = lengths[8];
+}
+
+void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation, const Kinematics& k,
+                                  State& rate, std::array<V2, 3>& torque, PlanarLinear* linear) {
+  Arms arms;
+  std::array<V2, 10> lengths;
+  measure_paths(k, arms, lengths);
   for (int g = 0; g < kGroups; ++g) {
-    std::memcpy(&forces_.path_m[g], &lengths[4 * g], sizeof(V4));
-    const MuscleGroup r = muscle_group(model_.muscles[g], activation[g], state.y[State::kFiber + g],
-                                       forces_.path_m[g]);
-    rate.y[State::kFiber + g] = r.fiber_velocity_m_s;
+    const V2 a = lengths[2 * g], b = lengths[2 * g + 1];
+    const V4 path = forces_.path_m[g] = V4{a[0], a[1], b[0], b[1]};
+    const PlanarModel::Muscles& muscles = model_.muscles[g];
+    const V4 fiber = state.y[State::kFiber + g];
+    MuscleGroup r;
     if (linear) {
+      r = muscle_group<true>(muscles, activation[g], fiber, path);
       linear->fiber_1_s[g] = r.fiber_1_s;
       linear->stretch_1_s[g] = r.stretch_1_s;
       linear->tendon_N_m[g] = r.tendon_stiffness_n * max_force_N_[g];
       linear->fiber_N_m[g] = linear->tendon_N_m[g] * r.cos_inverse;
+    } else {
+      r = muscle_group<false>(muscles, activation[g], fiber, path);
     }
-    forces_.tendon_N[g] = r.tendon_force_n * max_force_N_[g];
-    std::memcpy(&tension[4 * g], &forces_.tendon_N[g], sizeof(V4));
-  }
-  for (int m = 0; m < PlanarModel::kMusclesOfLeg; ++m) {
-    const PlanarModel::MusclePath& muscle = model_.paths[m];
-    for (int j = muscle.first_joint; j <= muscle.last_joint; ++j) {
-      torque[j] -= load(&tension[2 * m]) * arm[m][j];
+    rate.y[State::kFiber + g] = r.fiber_velocity_m_s;
+    const V4 tension = forces_.tendon_N[g] = r.tendon_force_n * max_force_N_[g];
+    for (int half = 0; half < 2 && 2 * g + half < PlanarModel::kMusclesOfLeg; ++half) {
+      const int m = 2 * g + half;
+      const V2 pull{tension[2 * half], tension[2 * half + 1]};
+      for (int j = 0; j < 3; ++j) torque[j] -= pull * arms[m][j];
     }
-    if (linear) linear->arm[m] = {arm[m][0], arm[m][1], arm[m][2]};
   }
+  if (linear) linear->arm = arms;
 }
 
 void PlanarDynamics::touch(const State& state, const Kinematics& k, V2& fx, V2& fy, V2& moment,

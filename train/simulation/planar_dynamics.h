@@ -71,8 +71,12 @@ class PlanarDynamics {
  private:
   struct Kinematics;
   struct Legs;
+  /// Moment arms about hip, knee, ankle: how much a path lengthens with the angle.
+  using Arms = std::array<std::array<simd::V2, 3>, PlanarModel::kMusclesOfLeg>;
   void place(const State& state, Kinematics& k);
-  void pull_muscles(const State& state, const Fibers& activation, Kinematics& k, State& rate,
+  void measure_paths(const Kinematics& k, Arms& arms,
+                     std::array<simd::V2, PlanarModel::kMusclesOfLeg + 1>& lengths) const;
+  void pull_muscles(const State& state, const Fibers& activation, const Kinematics& k, State& rate,
                     std::array<simd::V2, 3>& torque, PlanarLinear* linear);
   void touch(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy, simd::V2& moment,
              PlanarLinear* linear);

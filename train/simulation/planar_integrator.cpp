@@ -13,7 +13,7 @@ using simd::V4;
 namespace {
 
 constexpr double kTrack_s = 0.01;         // longest stretch whose activations are worked out ahead
-constexpr double kImplicitDownTo = 1e-4;  // accuracy
+constexpr double kImplicitDownTo = 3e-4;  // accuracy
 constexpr double kCoordinate_s = 0.03, kFiber_m = 0.01;  // what an error of 1 is measured against
 
 void add(State& to, double factor, const State& what) {

@@ -13,7 +13,7 @@ namespace stride {
 /// rad/s or m/s count as they are, coordinates against 0.03 s and fibres against 0.01 m of it. See
 /// README.md for what makes the equations stiff and what is done about each.
 ///
-/// Down to an accuracy of 1e-4 the steps are those of rosenbrock.h, implicit in what is stiff;
+/// Down to an accuracy of 3e-4 the steps are those of rosenbrock.h, implicit in what is stiff;
 /// for tighter ones, where small steps are wanted anyway, Merson's explicit ones of higher order.
 class PlanarIntegrator {
  public:

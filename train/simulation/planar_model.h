@@ -60,9 +60,11 @@ struct PlanarModel {
 
   /// A muscle's path with a given set of conditional points present.
   struct Piece {
-    int inner = 0, outer = 0;      // points; outer is on the segment further from the base
+    int inner = 0, outer = 0;  // points; outer is on the segment further from the base
+    double dz_m = 0;
     double weight = 0;             // 0: there is no such piece
     double crosses[kJoints] = {};  // 1 for each joint between the two
+    double moves = 0;              // 1 if outer is the muscle's moving point, -1 if inner is
   };
   struct Path {
     double constant_m = 0;  // pieces within a segment
@@ -73,12 +75,14 @@ struct PlanarModel {
     double range_min[kLegs] = {}, range_max[kLegs] = {};
     int bit = 1;
   };
+  static constexpr int kMostConditions = 2;
   struct MusclePath {
     int pieces = 1;
     int first_joint = 0, last_joint = 0;  // that the muscle crosses
-    bool moving = false;
+    int moving = -1;                      // the point that moves, if one does
     std::vector<Condition> conditions;
-    std::vector<std::array<Path, kLegs>> variants;  // by the bits of the conditions that hold
+    /// By the bits of the conditions that hold.
+    std::array<std::array<Path, kLegs>, 1 << kMostConditions> variants;
   };
   std::array<MusclePath, kMusclesOfLeg> paths;
 

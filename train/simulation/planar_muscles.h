@@ -4,18 +4,22 @@
 
 namespace stride {
 
-/// muscle_forces() of four muscles at once, with the derivative of the fibre's velocity.
+/// muscle_forces() of four muscles at once, if wanted with derivatives.
 struct MuscleGroup {
-  simd::V4 tendon_force_n;  // of the maximum force
-  simd::V4 fiber_velocity_m_s;
-  simd::V4 fiber_1_s;           // ∂(fibre velocity)/∂(fibre length)
-  simd::V4 stretch_1_s;         // ∂(fibre velocity)/∂(path length)
-  simd::V4 tendon_stiffness_n;  // ∂(tendon force)/∂(path length), 1/m
-  simd::V4 cos_inverse;         // 1 / cos(pennation)
+  simd::V4 tendon_force_n{};  // of the maximum force
+  simd::V4 fiber_velocity_m_s{};
+  // With slopes only.
+  simd::V4 fiber_1_s{};           // ∂(fibre velocity)/∂(fibre length)
+  simd::V4 stretch_1_s{};         // ∂(fibre velocity)/∂(path length)
+  simd::V4 tendon_stiffness_n{};  // ∂(tendon force)/∂(path length), 1/m
+  simd::V4 cos_inverse{};         // 1 / cos(pennation)
 };
 
-inline MuscleGroup muscle_group(const PlanarModel::Muscles& m, simd::V4 raw_activation,
-                                simd::V4 fiber_length, simd::V4 path_length) {
+template <bool with_slopes>
+[[gnu::always_inline]] inline MuscleGroup muscle_group(const PlanarModel::Muscles& m,
+                                                       simd::V4 raw_activation,
+                                                       simd::V4 fiber_length,
+                                                       simd::V4 path_length) {
   using simd::V4;
   const V4 zero{};
   const V4 a = simd::min(simd::max(raw_activation, m.minimum_activation), simd::all(1));
@@ -57,22 +61,23 @@ inline MuscleGroup muscle_group(const PlanarModel::Muscles& m, simd::V4 raw_acti
   const V4 slope = scale * b_inverse * (1 - share * db);
   const V4 speed = scale * share + slope * (force - inside);
 
-  // The speed depends on force/isometric only, and the isometric force on the length through fal.
-  const V4 inverse = 1 / length;
-  const V4 tendon_stiffness = fse_slope * m.slack_inverse;
-  const V4 force_slope =
-      -cos_inverse * cos_inverse *
-          (tendon_stiffness + fse * m.width2 * inverse * inverse * inverse * cos_inverse) -
-      fpe_slope * m.optimal_inverse;
-  const V4 fal_slope = -2 * excess * m.active_shape_inverse * m.optimal_inverse;  // relative
-
   const auto still = (fiber_length <= m.minimum_length) & (speed <= zero);
-  return {fse,
-          still ? zero : speed,
-          still ? zero : slope * (force_slope - force * fal_slope),
-          still ? zero : slope * tendon_stiffness * cos_inverse,
-          tendon_stiffness,
-          cos_inverse};
+  MuscleGroup result{fse, still ? zero : speed};
+  if constexpr (with_slopes) {
+    // The speed depends on force/isometric only, and the isometric force on the length through fal.
+    const V4 inverse = 1 / length;
+    const V4 tendon_stiffness = fse_slope * m.slack_inverse;
+    const V4 force_slope =
+        -cos_inverse * cos_inverse *
+            (tendon_stiffness + fse * m.width2 * inverse * inverse * inverse * cos_inverse) -
+        fpe_slope * m.optimal_inverse;
+    const V4 fal_slope = -2 * excess * m.active_shape_inverse * m.optimal_inverse;  // relative
+    result.fiber_1_s = still ? zero : slope * (force_slope - force * fal_slope);
+    result.stretch_1_s = still ? zero : slope * tendon_stiffness * cos_inverse;
+    result.tendon_stiffness_n = tendon_stiffness;
+    result.cos_inverse = cos_inverse;
+  }
+  return result;
 }
 
 /// activation_rate() of four muscles at once.

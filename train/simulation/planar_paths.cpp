@@ -32,13 +32,15 @@ class PathBuilder {
     std::vector<int> bit(law_[0].points.size(), 0);
     for (std::size_t p = 0; p < law_[0].points.size(); ++p) {
       if (law_[0].points[p].kind != PathPoint::Kind::conditional) continue;
+      need(path.conditions.size() < PlanarModel::kMostConditions,
+           "it has more than two conditional points");
       path.conditions.push_back(condition(p, 1 << path.conditions.size()));
       bit[p] = path.conditions.back().bit;
     }
     for (int present = 0; present < 1 << path.conditions.size(); ++present) {
       std::array<PlanarModel::Path, kLegs> variant;
       for (int leg = 0; leg < kLegs; ++leg) variant[leg] = build_path(leg, bit, present, path);
-      path.variants.push_back(variant);
+      path.variants[present] = variant;
     }
     planar_.paths[m] = path;
   }
@@ -104,7 +106,7 @@ class PathBuilder {
         path.constant_m += distance(leg, from, to);
       } else {
         need(count < 2, "its path crosses between segments more than twice");
-        path.pieces[count++] = piece(from, to, muscle);
+        path.pieces[count++] = piece(leg, from, to, muscle);
       }
     }
     need(count > 0, "its path crosses no joint");
@@ -112,16 +114,22 @@ class PathBuilder {
     if (count == 1) {
       path.pieces[1].inner = path.pieces[0].inner;
       path.pieces[1].outer = path.pieces[0].outer;
+      path.pieces[1].dz_m = 1;
     }
     return path;
   }
 
-  PlanarModel::Piece piece(std::size_t from, std::size_t to, PlanarModel::MusclePath& muscle) {
+  PlanarModel::Piece piece(int leg, std::size_t from, std::size_t to,
+                           PlanarModel::MusclePath& muscle) {
     if (place(0, from).segment > place(0, to).segment) std::swap(from, to);
     PlanarModel::Piece piece;
     piece.inner = point(from, muscle);
     piece.outer = point(to, muscle);
     piece.weight = 1;
+    piece.dz_m = planar_.points[piece.outer].z_m[leg] - planar_.points[piece.inner].z_m[leg];
+    if (muscle.moving >= 0) {
+      piece.moves = piece.outer == muscle.moving ? 1 : piece.inner == muscle.moving ? -1 : 0;
+    }
     for (int joint = place(0, from).segment; joint < place(0, to).segment; ++joint) {
       piece.crosses[joint] = 1;
       muscle.first_joint = std::min(muscle.first_joint, joint);
@@ -148,7 +156,6 @@ class PathBuilder {
 
   int point(std::size_t p, PlanarModel::MusclePath& muscle) {
     const bool moves = law_[0].points[p].kind == PathPoint::Kind::moving;
-    muscle.moving = muscle.moving || moves;
     const auto known = known_.find({muscle_, p});
     if (known != known_.end()) return known->second;
     PlanarModel::Point point;
@@ -164,6 +171,10 @@ class PathBuilder {
     }
     need(planar_.points.size() < PlanarModel::kMostPoints, "the paths have more points than fit");
     planar_.points.push_back(point);
+    if (moves) {
+      need(muscle.moving < 0, "it has more than one moving point");
+      muscle.moving = static_cast<int>(planar_.points.size()) - 1;
+    }
     return known_[{muscle_, p}] = static_cast<int>(planar_.points.size()) - 1;
   }
 

@@ -160,14 +160,15 @@ TEST(PlanarDynamics, KnowsHowFastFibersReturn) {
                 (0.95 + 0.15 * uniform(random)) / m.slack_inverse[i];
     }
     const simd::V4 h = length * 1e-7;
-    const simd::V4 slope = (muscle_group(m, a, length + h, path).fiber_velocity_m_s -
-                            muscle_group(m, a, length - h, path).fiber_velocity_m_s) /
+    const simd::V4 slope = (muscle_group<true>(m, a, length + h, path).fiber_velocity_m_s -
+                            muscle_group<true>(m, a, length - h, path).fiber_velocity_m_s) /
                            (2 * h);
-    const MuscleGroup found = muscle_group(m, a, length, path);
+    const MuscleGroup found = muscle_group<true>(m, a, length, path);
     for (int i = 0; i < 4; ++i) {
       // Away from the corners of the curves, where a difference straddles two slopes.
-      const double straddled = std::abs(muscle_group(m, a, length + 2 * h, path).fiber_1_s[i] -
-                                        muscle_group(m, a, length - 2 * h, path).fiber_1_s[i]);
+      const double straddled =
+          std::abs(muscle_group<true>(m, a, length + 2 * h, path).fiber_1_s[i] -
+                   muscle_group<true>(m, a, length - 2 * h, path).fiber_1_s[i]);
       EXPECT_NEAR(found.fiber_1_s[i], slope[i], 1e-4 * std::abs(slope[i]) + straddled + 1e-6);
     }
   }
