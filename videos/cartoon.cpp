@@ -23,9 +23,8 @@ class Cartoon final : public Costume {
   std::vector<Patch> dress(const Skeleton& k, const Proportions& p, bool from_left) const override {
     const int near = from_left ? 1 : 0, far = 1 - near;
     std::vector<Patch> out;
-    int group = 0;
     const auto add = [&](std::vector<Patch> patches) {
-      ++group;
+      const int group = static_cast<int>(out.size());
       for (Patch& patch : patches) {
         patch.group = group;
         patch.outline_m = kLine_m;
@@ -34,20 +33,12 @@ class Cartoon final : public Costume {
         out.push_back(std::move(patch));
       }
     };
-    for (const int side : {far, near}) {
-      if (side == near) add(body(k));
-      add(leg(k, p, side));
-      if (side == far) continue;
-      add(head(k));
-      face(k, ++group, out);
-    }
-    // The far arm goes behind everything.
-    std::vector<Patch> all;
-    std::swap(all, out);
-    group = 100;
     add(arm(k, p, far));
-    for (Patch& patch : all) out.push_back(std::move(patch));
-    group = 200;
+    add(leg(k, p, far));
+    add(body(k));
+    add(leg(k, p, near));
+    add(head(k));
+    face(k, out);
     add(arm(k, p, near));
     return out;
   }
@@ -135,8 +126,8 @@ class Cartoon final : public Costume {
     return patches;
   }
 
-  /// Eye, mouth and ear, without an outline of their own group.
-  static void face(const Skeleton& k, int group, std::vector<Patch>& out) {
+  /// Eye, mouth and ear, each with its own line.
+  static void face(const Skeleton& k, std::vector<Patch>& out) {
     const auto spot = [&](double up, double forward, double tall, double wide, const Colour& colour,
                           double line) {
       const double c = std::cos(k.head_pitch), s = std::sin(k.head_pitch);
@@ -146,7 +137,7 @@ class Cartoon final : public Costume {
       patch.colour = [colour](double, double) { return colour; };
       patch.roundness = patch.end_roundness = 0;
       patch.outline_m = line;
-      patch.group = ++group;
+      patch.group = static_cast<int>(out.size());
       out.push_back(std::move(patch));
     };
     spot(0.045, 0.095, 0.022, 0.036, kWhite, 0.006);

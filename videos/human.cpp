@@ -29,15 +29,14 @@ class Human final : public Costume {
 
  private:
   Colour skin(double s, double across, double seed) const {
-    return look_.skin *
-           static_cast<float>(1 + 0.15 * grain_.rough(35 * s + seed, 5 * across + seed));
+    return lit(look_.skin, 1 + 0.15 * grain_.rough(35 * s + seed, 5 * across + seed));
   }
 
   /// Cloth that hangs in folds.
   Colour cloth(const Colour& colour, double s, double across, double seed) const {
     const double folds = grain_.rough(16 * s + 3.5 * across + seed, 3 * across - 5 * s + 2 * seed);
     const double weave = grain_(180 * s + seed, 16 * across);
-    return colour * static_cast<float>(1 + 0.34 * folds + 0.07 * weave);
+    return lit(colour, 1 + 0.34 * folds + 0.07 * weave);
   }
 
   void leg(const Skeleton& k, const Proportions& p, int side, double light,
@@ -53,11 +52,10 @@ class Human final : public Costume {
                            {p.shank, 0.035, 0.038}});
     shank.colour = [=, this, end = p.shank](double s, double across) {
       Colour colour = skin(s, across, seed);
-      colour *= static_cast<float>(1 - 0.22 * band(s, -0.02, 0.045, 0.05) * step(across, 0.3, 0.5));
+      colour = lit(colour, 1 - 0.22 * band(s, -0.02, 0.045, 0.05) * step(across, 0.3, 0.5));
       const double sock = step(s, end - 0.105, 0.004);
-      const Colour knit =
-          look_.sock * static_cast<float>(1 - 0.20 * band(s, end - 0.095, end - 0.082, 0.006) +
-                                          0.10 * grain_(140 * s, 8 * across));
+      const Colour knit = lit(look_.sock, 1 - 0.20 * band(s, end - 0.095, end - 0.082, 0.006) +
+                                              0.10 * grain_(140 * s, 8 * across));
       return mixed(colour, knit, sock);
     };
     Patch shoe = this->shoe(k, p, side);
@@ -70,7 +68,7 @@ class Human final : public Costume {
                            {p.thigh + 0.02, 0.053, 0.049}});
     thigh.colour = [=, this](double s, double across) {
       const double muscle = 0.16 * band(across, -0.05, 0.25, 0.3) * band(s, 0.2, 0.36, 0.1);
-      return skin(s, across, seed + 7) * static_cast<float>(1 - muscle);
+      return lit(skin(s, across, seed + 7), 1 - muscle);
     };
     Patch shorts = hanging(
         k.hip[side], k.thigh_angle[side],
@@ -101,7 +99,7 @@ class Human final : public Costume {
     shoe.round_start = false;
     shoe.gloss = 0.10;
     shoe.colour = [=, this](double s, double across) {
-      Colour colour = look_.shoe * static_cast<float>(1 + 0.15 * grain_(60 * s, 6 * across));
+      Colour colour = lit(look_.shoe, 1 + 0.15 * grain_(60 * s, 6 * across));
       const double slanted = s - 0.02 * across;
       colour =
           mixed(colour, look_.lace, band(slanted, 0.018, 0.034, 0.006) * step(across, -0.5, 0.1));
@@ -179,8 +177,7 @@ class Human final : public Costume {
       colour = mixed(colour, look_.skin * 0.72F, 0.7 * ear);
       const double hairline =
           0.058 - 0.05 * std::max(0.0, 0.45 - across) - 0.02 * std::max(0.0, 0.1 - across);
-      const Colour hair =
-          look_.hair * static_cast<float>(1 + 0.9 * grain_.rough(50 * s, 14 * across + 3));
+      const Colour hair = lit(look_.hair, 1 + 0.9 * grain_.rough(50 * s, 14 * across + 3));
       return mixed(colour, hair, step(s, hairline, 0.016) * (1 - 0.9 * ear));
     };
     out.push_back(std::move(head));
@@ -224,8 +221,8 @@ class Human final : public Costume {
     Patch hand = hanging(k.wrist[side], k.forearm_angle[side] + 0.25,
                          {{0.0, 0.026, 0.026}, {0.03, 0.036, 0.034}, {0.065, 0.036, 0.036}});
     hand.colour = [=, this](double s, double across) {
-      return skin(s, across, seed + 9) *
-             static_cast<float>(1 - 0.22 * band(across, -0.1, 0.1, 0.2) * step(s, 0.03, 0.02));
+      return lit(skin(s, across, seed + 9),
+                 1 - 0.22 * band(across, -0.1, 0.1, 0.2) * step(s, 0.03, 0.02));
     };
     Patch sleeve = hanging(k.shoulder[side], k.upper_arm_angle[side],
                            {{-0.02, 0.056, 0.062}, {0.06, 0.064, 0.063}, {0.145, 0.062, 0.058}});
