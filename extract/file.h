@@ -17,5 +17,7 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 /// SHA-256 of a file's bytes in lower-case hexadecimal: how our files name the video they belong
 /// to.
 std::string sha256_of_file(const std::filesystem::path& file);
+/// The same of bytes in memory.
+std::string sha256_of(std::string_view content);
 
 }  // namespace stride

@@ -215,8 +215,7 @@ void check(const Keypoints& k, const std::string& what) {
   }
 }
 
-void save(const Keypoints& k, const fs::path& file) {
-  check(k, file.string());
+std::string text_of(const Keypoints& k) {
   Json json{{"format", kFormat},
             {"version", kVersion},
             {"video", k.video},
@@ -234,7 +233,12 @@ void save(const Keypoints& k, const fs::path& file) {
   add_others(json, k.other_json);
   json["frames"] = Json::array();
   for (const auto& [number, frame] : k.frames) json["frames"].push_back(json_of(number, frame));
-  write_file_atomically(file, json.dump(1) + "\n");
+  return json.dump(1) + "\n";
+}
+
+void save(const Keypoints& k, const fs::path& file) {
+  check(k, file.string());
+  write_file_atomically(file, text_of(k));
 }
 
 void check_belongs_to(const Keypoints& keypoints, const fs::path& video) {

@@ -70,6 +70,9 @@ Keypoints load_keypoints(const std::filesystem::path& file);
 /// Checks as load_keypoints does, then replaces the file atomically. Throws Error.
 void save(const Keypoints& keypoints, const std::filesystem::path& file);
 
+/// What save() writes.
+std::string text_of(const Keypoints& keypoints);
+
 /// The rules of the format for values made by a program. Throws Error; `what` begins the sentence.
 void check(const Keypoints& keypoints, const std::string& what);
 

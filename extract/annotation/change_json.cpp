@@ -1,0 +1,89 @@
+#include "extract/annotation/change_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "extract/error.h"
+
+namespace stride {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); }
+Eigen::Vector2d point_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>()};
+}
+
+Json json_of(const std::optional<Click>& click) {
+  if (!click) return nullptr;
+  Json json{{"state", name(click->state)}, {"p_px", json_of(click->p_px)}};
+  if (!click->other_json.empty()) json["other"] = click->other_json;
+  return json;
+}
+
+std::optional<Click> click_of(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  Click click;
+  click.p_px = point_of(json.at("p_px"));
+  const std::string state = json.at("state");
+  for (const ClickState s : {ClickState::seen, ClickState::estimated, ClickState::absent})
+    if (state == name(s)) click.state = s;
+  click.other_json = json.value("other", "");
+  return click;
+}
+
+Json json_of(const ClipSettings& s) {
+  Json json{{"direction", s.direction},
+            {"near_leg", s.near_leg},
+            {"slow_motion", s.slow_motion},
+            {"notes", s.notes}};
+  if (s.treadmill) json["treadmill"] = *s.treadmill;
+  if (s.trim) json["trim"] = Json::array({s.trim->first, s.trim->last});
+  if (s.floor) json["floor"] = Json::array({json_of(s.floor->from_px), json_of(s.floor->to_px)});
+  return json;
+}
+
+ClipSettings settings_of(const Json& json) {
+  ClipSettings s;
+  s.direction = json.at("direction");
+  s.near_leg = json.at("near_leg");
+  s.slow_motion = json.at("slow_motion");
+  s.notes = json.at("notes");
+  if (json.contains("treadmill")) s.treadmill = json.at("treadmill").get<bool>();
+  if (json.contains("trim"))
+    s.trim = {json.at("trim").at(0).get<int>(), json.at("trim").at(1).get<int>()};
+  if (json.contains("floor"))
+    s.floor = {point_of(json.at("floor").at(0)), point_of(json.at("floor").at(1))};
+  return s;
+}
+
+}  // namespace
+
+std::string line_of(const Change& change) {
+  Json json{{"what", change.what}, {"clicks", Json::array()}};
+  for (const ClickChange& edit : change.clicks)
+    json["clicks"].push_back({{"frame", edit.frame},
+                              {"video_time_s", edit.video_time_s},
+                              {"part", name(edit.part)},
+                              {"click", json_of(edit.click)}});
+  if (change.settings) json["settings"] = json_of(*change.settings);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Change change_of(const std::string& line, const std::string& where) {
+  try {
+    const Json json = Json::parse(line);
+    Change change;
+    change.what = json.at("what");
+    for (const Json& edit : json.at("clicks"))
+      change.clicks.push_back({edit.at("frame"), edit.at("video_time_s"),
+                               body_part(edit.at("part").get<std::string>()),
+                               click_of(edit.at("click"))});
+    if (json.contains("settings")) change.settings = settings_of(json.at("settings"));
+    return change;
+  } catch (const Json::exception& error) {
+    throw Error(fmt::format("{}: not a line of an annotation journal ({})", where, error.what()));
+  }
+}
+
+}  // namespace stride

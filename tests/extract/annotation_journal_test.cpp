@@ -1,0 +1,216 @@
+#include "extract/annotation/journal.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <random>
+
+#include "extract/annotation/change_json.h"
+#include "extract/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+Keypoints fresh() {
+  Keypoints k;
+  k.video = "run.mp4";
+  k.video_sha256 = "00";
+  k.width_px = 640;
+  k.height_px = 360;
+  return k;
+}
+
+Change click(int frame, BodyPart part, double x_px) {
+  return {"a click", {{frame, frame / 30.0, part, Click{{x_px, 0.1}, ClickState::seen, ""}}}, {}};
+}
+
+std::string slurp(const std::filesystem::path& file) { return read_file(file); }
+
+TEST(AnnotationDocument, TakesBackAndMakesAgainWithoutLimit) {
+  AnnotationDocument document(fresh());
+  std::vector<std::string> states{text_of(document.keypoints())};
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 300; ++i) {
+    Change change = click(static_cast<int>(random() % 20), kBodyParts[random() % 10], i);
+    if (i % 7 == 0) change.clicks[0].click.reset();
+    if (i % 11 == 0) {
+      change.settings = settings_of(document.keypoints());
+      change.settings->slow_motion = 1 + static_cast<double>(i % 4);
+      change.settings->notes = std::to_string(i);
+    }
+    document.apply(change);
+    states.push_back(text_of(document.keypoints()));
+  }
+  for (int i = 299; i >= 0; --i) {
+    ASSERT_TRUE(document.undo());
+    ASSERT_TRUE(text_of(document.keypoints()) == states[static_cast<std::size_t>(i)]) << i;
+  }
+  EXPECT_FALSE(document.undo());
+  for (std::size_t i = 1; i <= 300; ++i) {
+    ASSERT_TRUE(document.redo());
+    ASSERT_TRUE(text_of(document.keypoints()) == states[i]) << i;
+  }
+  EXPECT_FALSE(document.redo());
+}
+
+TEST(AnnotationDocument, RefusesWhatTheFormatDoesNotAllowAndStaysAsItWas) {
+  AnnotationDocument document(fresh());
+  document.apply(click(1, BodyPart::head, 5));
+  const std::string before = text_of(document.keypoints());
+  EXPECT_ERROR(document.apply(click(2, BodyPart::head, 700)), "outside the frame");
+  EXPECT_EQ(text_of(document.keypoints()), before);
+}
+
+TEST(AnnotationDocument, ChangesSurviveTheirJson) {
+  Change change = click(3, BodyPart::toe_l, 1.0 / 3);
+  change.clicks.push_back({4, 0.2, BodyPart::head, std::nullopt});
+  change.settings = ClipSettings{
+      "left", "right", 2.5, true, FrameRange{1, 9}, FloorLine{{0, 1}, {2, 3.25}}, "a \"note\""};
+  const Change back = change_of(line_of(change), "here");
+  EXPECT_EQ(line_of(back), line_of(change));
+  EXPECT_EQ(back.clicks[0].click->p_px.x(), 1.0 / 3);
+  EXPECT_EQ(back.settings->trim->last, 9);
+  EXPECT_ERROR(change_of("{\"what\":1}", "here"), "here: not a line of an annotation journal");
+}
+
+TEST(AnnotationJournal, FoldsWhenItCloses) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  {
+    AnnotationJournal journal(file, fresh());
+    journal.apply(click(3, BodyPart::knee_r, 12.25));
+    EXPECT_ERROR(AnnotationJournal(file, fresh()), "another window is annotating this video");
+  }
+  EXPECT_FALSE(std::filesystem::exists(journal_file_of(file)));
+  EXPECT_EQ(load_keypoints(file).frames.at(3)[BodyPart::knee_r]->p_px.x(), 12.25);
+}
+
+TEST(AnnotationJournal, LeavesNoFileWhereNothingWasClicked) {
+  const TemporaryFolder folder;
+  { AnnotationJournal journal(folder / "run.keypoints.json", fresh()); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(AnnotationJournal, NeverReplacesAFileThatWasEditedMeanwhile) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  Keypoints others = fresh();
+  others.notes = "edited elsewhere";
+  {
+    AnnotationJournal journal(file, fresh());
+    journal.apply(click(3, BodyPart::knee_r, 12));
+    save(others, file);
+    journal.apply(click(4, BodyPart::knee_r, 13));
+    EXPECT_ERROR(journal.fold(), "run.keypoints.mine1.json from now on");
+    journal.apply(click(5, BodyPart::knee_r, 14));
+  }
+  EXPECT_EQ(load_keypoints(file).notes, "edited elsewhere");
+  EXPECT_EQ(load_keypoints(folder / "run.keypoints.mine1.json").frames.size(), 3u);
+}
+
+TEST(AnnotationJournal, RefusesKeypointsOfANewerProgramOrAnotherVideo) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  save(fresh(), file);
+  Keypoints other = fresh();
+  other.video_sha256 = "11";
+  EXPECT_ERROR(AnnotationJournal(file, other), "was clicked on another video");
+  std::string text = slurp(file);
+  text.replace(text.find("\"version\": 1"), 12, "\"version\": 9");
+  std::ofstream(file) << text;
+  EXPECT_ERROR(AnnotationJournal(file, fresh()), "version 9: this program reads up to version 1");
+  EXPECT_EQ(slurp(file), text);
+}
+
+/// Runs `act` in a process of its own that is killed after it has written `confirmed` bytes.
+template <typename Act>
+int killed_after(int confirmed, Act act) {
+  int pipe_ends[2];
+  EXPECT_EQ(::pipe(pipe_ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(pipe_ends[0]);
+    act([&] { return ::write(pipe_ends[1], ".", 1) == 1; });
+    ::_exit(0);
+  }
+  ::close(pipe_ends[1]);
+  int read = 0;
+  char byte;
+  while (read < confirmed && ::read(pipe_ends[0], &byte, 1) == 1) ++read;
+  ::kill(child, SIGKILL);
+  while (::read(pipe_ends[0], &byte, 1) == 1) ++read;  // confirmed before it died
+  ::close(pipe_ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return read;
+}
+
+TEST(AnnotationJournal, AKilledWindowLosesNoClick) {
+  // What a process wrote survives its death without a disk too, and a thousand flushes take time.
+  if (std::filesystem::exists("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
+  const TemporaryFolder folder;
+  ::unsetenv("TMPDIR");
+  std::mt19937_64 random(99);
+  for (int round = 0; round < 100; ++round) {
+    const auto file = folder / fmt::format("run{}.keypoints.json", round);
+    const int confirmed = killed_after(static_cast<int>(random() % 40), [&](auto confirm) {
+      AnnotationJournal journal(file, fresh());
+      for (int i = 0; i < 60; ++i) {
+        journal.apply(click(i, BodyPart::knee_r, i));
+        confirm();
+        if (i % 5 == 4) {
+          journal.undo();
+          journal.redo();
+        }
+        if (i % 8 == 7) journal.fold();
+      }
+      for (;;) ::pause();
+    });
+    if (round % 2 == 0) fold_left_over_journal(file);
+    AnnotationJournal journal(file, fresh());
+    const auto& frames = journal.document().keypoints().frames;
+    // The last one may have been taken back, for it to be made again, when the program died.
+    ASSERT_GE(static_cast<int>(frames.size()), confirmed - (confirmed % 5 == 0 ? 1 : 0));
+    ASSERT_LE(static_cast<int>(frames.size()), confirmed + 1);
+    for (const auto& [number, frame] : frames) ASSERT_EQ(frame[BodyPart::knee_r]->p_px.x(), number);
+  }
+}
+
+TEST(AnnotationJournal, SaysWhenTheDiskIsFullAndKeepsWhatWasSaved) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before;
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  int saved = 0;
+  {
+    AnnotationJournal journal(file, fresh());
+    rlimit small = before;
+    small.rlim_cur = 5000;  // a file that may not grow behaves as a disk without room
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    try {
+      for (;; ++saved) journal.apply(click(saved, BodyPart::knee_r, saved));
+    } catch (const Error& error) {
+      EXPECT_THAT(std::string(error.what()), ::testing::HasSubstr("run.keypoints.journal: not "
+                                                                  "saved (File too large); what "
+                                                                  "was saved before is safe"));
+    }
+    EXPECT_EQ(static_cast<int>(journal.document().keypoints().frames.size()), saved);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  }
+  EXPECT_GT(saved, 10);
+  EXPECT_EQ(static_cast<int>(load_keypoints(file).frames.size()), saved);
+}
+
+TEST(AnnotationJournal, SaysWhenTheFolderCannotBeWritten) {
+  EXPECT_ERROR(AnnotationJournal("/proc/run.keypoints.json", fresh()),
+               "/proc/run.keypoints.journal: cannot be written");
+}
+
+}  // namespace
+}  // namespace stride
