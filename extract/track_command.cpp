@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "extract/annotation/journal.h"
 #include "extract/commands.h"
 #include "extract/error.h"
 #include "extract/export.h"
@@ -68,6 +69,7 @@ Marked read_marks(const Request& request) {
     const fs::path file =
         request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
     require(fs::exists(request.video), "{}: no such video", request.video.string());
+    fold_left_over_journal(file);
     require(fs::exists(file),
             "{}: no such file; click points with 'stride annotate {}', or give --import",
             file.string(), request.video.string());

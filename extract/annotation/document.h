@@ -57,7 +57,7 @@ class AnnotationDocument {
 
   Keypoints keypoints_;
   std::map<int, double> video_times_s_;  // by frame, of every frame that ever had a click
-  std::vector<Change> undo_, redo_;  // the last is the next to be made
+  std::vector<Change> undo_, redo_;      // the last is the next to be made
   int revision_ = 0;
 };
 

@@ -36,6 +36,13 @@ Keypoints opened(const fs::path& file, const Keypoints& fresh) {
   return keypoints;
 }
 
+bool is_in_use(const fs::path& journal_file) {
+  const int descriptor = ::open(journal_file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  if (descriptor >= 0) ::close(descriptor);
+  return locked;
+}
+
 fs::path unused_name_beside(const fs::path& file) {
   fs::path stem = file;
   stem.replace_extension();
@@ -223,7 +230,8 @@ void AnnotationJournal::fold() {
 }
 
 void fold_left_over_journal(const fs::path& keypoints_file) {
-  if (!fs::exists(keypoints_file) || !fs::exists(journal_file_of(keypoints_file))) return;
+  const fs::path journal_file = journal_file_of(keypoints_file);
+  if (!fs::exists(keypoints_file) || !fs::exists(journal_file) || is_in_use(journal_file)) return;
   const AnnotationJournal journal(keypoints_file, Keypoints());
 }
 

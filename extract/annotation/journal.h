@@ -27,6 +27,7 @@ class AnnotationJournal {
   AnnotationJournal& operator=(const AnnotationJournal&) = delete;
 
   const AnnotationDocument& document() const { return document_; }
+  const std::filesystem::path& file() const { return file_; }  // where it is folded to
   int recovered() const { return recovered_; }  // edits that a killed program had left
 
   /// As of AnnotationDocument, and on disk on return. Where the disk refuses (full, read only), the

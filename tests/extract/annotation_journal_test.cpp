@@ -86,6 +86,8 @@ TEST(AnnotationJournal, FoldsWhenItCloses) {
     AnnotationJournal journal(file, fresh());
     journal.apply(click(3, BodyPart::knee_r, 12.25));
     EXPECT_ERROR(AnnotationJournal(file, fresh()), "another window is annotating this video");
+    fold_left_over_journal(file);
+    EXPECT_TRUE(std::filesystem::exists(journal_file_of(file)));
   }
   EXPECT_FALSE(std::filesystem::exists(journal_file_of(file)));
   EXPECT_EQ(load_keypoints(file).frames.at(3)[BodyPart::knee_r]->p_px.x(), 12.25);

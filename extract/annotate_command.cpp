@@ -1,0 +1,227 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <opencv2/highgui.hpp>
+
+#include "extract/annotation/background_tracker.h"
+#include "extract/annotation/predict.h"
+#include "extract/annotation/script.h"
+#include "extract/commands.h"
+#include "extract/error.h"
+#include "extract/file.h"
+#include "extract/import.h"
+
+namespace stride {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Request {
+  fs::path video, keypoints, script, import_from;
+  std::vector<int> window{1280, 860};
+  AnnotationOptions session;
+  ImportOptions import;
+  bool keys = false;
+};
+
+/// Qt aborts the whole program where it cannot reach a display; a child of ours tries it first.
+void require_display() {
+  const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
+  constexpr const char* kCure =
+      "annotate on a desktop, or drive the same session without a window by --script FILE";
+  require(is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM"),
+          "no display: neither DISPLAY nor WAYLAND_DISPLAY is set; {}", kCure);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!std::freopen("/dev/null", "w", stderr)) ::_exit(1);
+    cv::namedWindow("probe", cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
+    ::_exit(0);
+  }
+  int status = 1;
+  ::waitpid(child, &status, 0);
+  require(WIFEXITED(status) && WEXITSTATUS(status) == 0, "no display: '{}' cannot be reached; {}",
+          is_set("DISPLAY") ? std::getenv("DISPLAY") : "the Wayland or Qt platform", kCure);
+}
+
+Keypoints fresh_keypoints(const fs::path& video, const VideoInfo& info) {
+  Keypoints keypoints;
+  keypoints.video = video.filename().string();
+  keypoints.video_sha256 = sha256_of_file(video);
+  keypoints.width_px = info.width_px;
+  keypoints.height_px = info.height_px;
+  return keypoints;
+}
+
+/// Another program's points become clicks, where there are none: one step for undo.
+void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal& journal) {
+  ImportOptions options = request.import;
+  if (options.rate_hz == 0) options.rate_hz = frames.info().rate_hz;
+  const Detections detections = import_points(request.import_from, options);
+  frames.wait();
+  Change change{fmt::format("points of {}", request.import_from.filename().string()), {}, {}};
+  for (const ImportedFrame& imported : detections.frames) {
+    const int number = imported.frame;
+    if (number >= frames.count() || journal.document().keypoints().frames.contains(number))
+      continue;
+    for (const BodyPart part : kBodyParts) {
+      const Point& point = imported[part];
+      const bool inside = point.present() && point.p_px.x() >= -0.5 && point.p_px.y() >= -0.5 &&
+                          point.p_px.x() <= frames.info().width_px - 0.5 &&
+                          point.p_px.y() <= frames.info().height_px - 0.5;
+      if (inside)
+        change.clicks.push_back(
+            {number, frames.video_time_s(number), part,
+             Click{point.p_px, point.confidence >= 0.5 ? ClickState::seen : ClickState::estimated,
+                   ""}});
+    }
+  }
+  fmt::print(stderr, "{}: {} points of {} frames taken as clicks\n", request.import_from.string(),
+             change.clicks.size(), detections.frames.size());
+  if (!change.clicks.empty()) journal.apply(std::move(change));
+}
+
+/// What the mouse callback tells the loop below.
+struct Window {
+  AnnotationSession& session;
+  bool changed = true;
+};
+
+void on_mouse(int type, int x, int y, int flags, void* data) {
+  auto& window = *static_cast<Window*>(data);
+  using Kind = AnnotationEvent::Kind;
+  using Button = AnnotationEvent::Button;
+  AnnotationEvent event;
+  event.p_canvas = {static_cast<double>(x), static_cast<double>(y)};
+  switch (type) {
+    case cv::EVENT_LBUTTONDOWN:
+    case cv::EVENT_RBUTTONDOWN:
+    case cv::EVENT_MBUTTONDOWN:
+    case cv::EVENT_LBUTTONDBLCLK:  // instead of the second press of a fast pair of clicks
+    case cv::EVENT_RBUTTONDBLCLK:
+      event.kind = Kind::press;
+      break;
+    case cv::EVENT_LBUTTONUP:
+    case cv::EVENT_RBUTTONUP:
+    case cv::EVENT_MBUTTONUP:
+      event.kind = Kind::release;
+      break;
+    case cv::EVENT_MOUSEWHEEL:
+      event.kind = Kind::wheel;
+      event.wheel = cv::getMouseWheelDelta(flags) > 0 ? 1 : -1;
+      break;
+    case cv::EVENT_MOUSEMOVE:
+      event.kind = Kind::move;
+      break;
+    default:
+      return;
+  }
+  if (type == cv::EVENT_RBUTTONDOWN || type == cv::EVENT_RBUTTONUP ||
+      type == cv::EVENT_RBUTTONDBLCLK)
+    event.button = Button::right;
+  if (type == cv::EVENT_MBUTTONDOWN || type == cv::EVENT_MBUTTONUP) event.button = Button::middle;
+  window.session.handle(event);
+  window.changed = true;
+}
+
+void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameStore& frames) {
+  constexpr auto kRest = std::chrono::milliseconds(300);
+  const std::string title = "stride annotate: " + session.keypoints().video;
+  cv::namedWindow(title, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
+  Window window{session};
+  cv::setMouseCallback(title, on_mouse, &window);
+  int decoded = -1;
+  auto last_event = Clock::now();
+  while (!session.done()) {
+    tracker.submit(session.keypoints(), session.revision());
+    if (auto prediction = tracker.poll()) {
+      session.set_prediction(std::move(*prediction));
+      window.changed = true;
+    }
+    if (!frames.complete() || decoded != frames.count()) window.changed = true;
+    decoded = frames.count();
+    if (window.changed) {
+      cv::imshow(title, session.picture());
+      window.changed = false;
+      last_event = Clock::now();
+    }
+    if (const int key = cv::waitKeyEx(15); key >= 0) {
+      AnnotationEvent event;
+      event.kind = AnnotationEvent::Kind::key;
+      event.key = key;
+      session.handle(event);
+      window.changed = true;
+    } else if (Clock::now() - last_event > kRest && session.rest()) {
+      window.changed = true;
+    }
+    if (cv::getWindowProperty(title, cv::WND_PROP_VISIBLE) < 1) break;
+  }
+  session.rest();
+  cv::destroyAllWindows();
+}
+
+void run(Request request) {
+  if (request.keys) {
+    fmt::print("| keys | |\n|---|---|\n");
+    for (const KeyHelp& help : key_help()) fmt::print("| {} | {} |\n", help.keys, help.does);
+    return;
+  }
+  require(!request.video.empty(), "VIDEO is missing: give the video to annotate");
+  if (request.script.empty()) require_display();
+  request.session.canvas_px = {request.window[0], request.window[1]};
+  require(request.window[0] >= 800 && request.window[1] >= 500,
+          "--window {} {}: must be at least 800 500", request.window[0], request.window[1]);
+  FrameStore frames(request.video);
+  const fs::path file =
+      request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
+  AnnotationJournal journal(file, fresh_keypoints(request.video, frames.info()));
+  if (journal.recovered() > 0)
+    fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
+               journal.recovered());
+  if (!request.import_from.empty()) import_clicks(request, frames, journal);
+  BackgroundTracker tracker([&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
+    return predict(keypoints, frames, given_up);
+  });
+  AnnotationSession session(journal, frames, request.session);
+  if (request.script.empty()) {
+    run_window(session, tracker, frames);
+  } else {
+    frames.wait();
+    run_script(session, request.script, [&] {
+      tracker.submit(session.keypoints(), session.revision());
+      session.set_prediction(tracker.wait());
+    });
+  }
+  journal.fold();
+  if (!frames.shortfall().empty()) fmt::print(stderr, "warning: {}\n", frames.shortfall());
+  fmt::print("{}\n", journal.file().string());
+}
+
+}  // namespace
+
+void add_annotate_command(CLI::App& app) {
+  const auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(
+      "annotate",
+      "click keypoints on a video and watch them being tracked (? in the window: help)");
+  command.add_option("VIDEO", request->video, "the video");
+  command.add_option("--keypoints", request->keypoints,
+                     "clicks (default: NAME.keypoints.json beside the video)");
+  command.add_option("--script", request->script,
+                     "without a window: events from a file, one JSON object a line");
+  command.add_option("--window", request->window, "its size: WIDTH HEIGHT")->expected(2);
+  command.add_flag("--hips", request->session.hips, "ask for the hips too");
+  command.add_flag("--head", request->session.head, "ask for the head too");
+  command.add_option("--import", request->import_from,
+                     "points of another program to correct: a file or a folder");
+  add_import_options(command, request->import);
+  command.add_flag("--keys", request->keys, "print the table of keys and leave");
+  command.callback([request] { run(*request); });
+}
+
+}  // namespace stride

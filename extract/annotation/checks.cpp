@@ -1,0 +1,106 @@
+#include "extract/annotation/checks.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace stride {
+namespace {
+
+constexpr double kBand = 0.12;
+
+double length_px(const ClickedFrame& frame, BodyPart from, BodyPart to) {
+  if (!frame.placed(from) || !frame.placed(to)) return 0;
+  return (frame[from]->p_px - frame[to]->p_px).norm();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Where one foot stands: the lowest spots, at least a third of a stride apart.
+void add_stances(const Trajectory& trajectory, BodyPart part, double stride_frames,
+                 std::vector<Eigen::Vector2d>& spots) {
+  for (const TrajectoryFrame& candidate : trajectory.frames) {
+    if (!candidate[part].present()) continue;
+    const bool lowest = std::ranges::none_of(trajectory.frames, [&](const TrajectoryFrame& f) {
+      return std::abs(f.frame - candidate.frame) < stride_frames / 3 && f[part].present() &&
+             f[part].p_px.y() > candidate[part].p_px.y();
+    });
+    const bool inside = candidate.frame - trajectory.frames.front().frame > stride_frames / 6 &&
+                        trajectory.frames.back().frame - candidate.frame > stride_frames / 6;
+    if (lowest && inside) spots.push_back(candidate[part].p_px);
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<BodyPart, BodyPart>> bones() {
+  using enum BodyPart;
+  return {{pelvis, knee_r}, {knee_r, ankle_r}, {ankle_r, toe_r},
+          {pelvis, knee_l}, {knee_l, ankle_l}, {ankle_l, toe_l}};
+}
+
+std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int number) {
+  const auto frame = keypoints.frames.find(number);
+  std::vector<BoneWarning> warnings;
+  if (frame == keypoints.frames.end()) return warnings;
+  for (const auto& [from, to] : bones()) {
+    const double here = length_px(frame->second, from, to);
+    if (here == 0) continue;
+    std::vector<double> lengths;
+    for (const auto& [other, clicked] : keypoints.frames)
+      for (const auto& [a, b] : {std::pair(from, to), std::pair(mirrored(from), mirrored(to))})
+        if (const double length = length_px(clicked, a, b); length > 0) lengths.push_back(length);
+    if (lengths.size() < 4) continue;
+    const double usual = median(lengths);
+    if (std::abs(here / usual - 1) > kBand) warnings.push_back({from, to, here, usual});
+  }
+  return warnings;
+}
+
+std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,
+                               const std::vector<BodyPart>& parts,
+                               const std::vector<int>& passed_by) {
+  std::optional<int> worst;
+  double least = 0.5;
+  for (const TrajectoryFrame& frame : prediction.frames) {
+    const auto near = keypoints.frames.lower_bound(frame.frame - 2);
+    if (near != keypoints.frames.end() && near->first <= frame.frame + 2) continue;
+    if (std::ranges::find(passed_by, frame.frame) != passed_by.end()) continue;
+    double sum = 0;
+    for (const BodyPart part : parts) sum += frame[part].confidence;
+    const double mean = sum / static_cast<double>(parts.size());
+    if (mean < least) {
+      least = mean;
+      worst = frame.frame;
+    }
+  }
+  return worst;
+}
+
+std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames) {
+  if (trajectory.frames.empty() || stride_frames <= 0) return std::nullopt;
+  std::vector<Eigen::Vector2d> spots;
+  for (const auto& [toe, ankle] : {std::pair(BodyPart::toe_r, BodyPart::ankle_r),
+                                   std::pair(BodyPart::toe_l, BodyPart::ankle_l)}) {
+    const bool has_toes = std::ranges::any_of(
+        trajectory.frames, [&](const TrajectoryFrame& f) { return f[toe].present(); });
+    add_stances(trajectory, has_toes ? toe : ankle, stride_frames, spots);
+  }
+  if (spots.size() < 2) return std::nullopt;
+  Eigen::MatrixX2d a(spots.size(), 2);
+  Eigen::VectorXd y(spots.size());
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    a.row(static_cast<Eigen::Index>(i)) << 1, spots[i].x();
+    y[static_cast<Eigen::Index>(i)] = spots[i].y();
+  }
+  const double left = a.col(1).minCoeff(), right = a.col(1).maxCoeff();
+  if (right - left < 0.1 * trajectory.width_px) return std::nullopt;
+  const Eigen::Vector2d line = a.colPivHouseholderQr().solve(y);
+  return FloorLine{{left, line[0] + line[1] * left}, {right, line[0] + line[1] * right}};
+}
+
+}  // namespace stride

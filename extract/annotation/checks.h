@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "extract/keypoints.h"
+#include "extract/trajectory.h"
+
+namespace stride {
+
+struct BoneWarning {
+  BodyPart from, to;
+  double length_px = 0, usual_px = 0;
+};
+
+/// Bones of the clicked frame that are more than 12 % longer or shorter than usual (the median over
+/// the clicked frames, of at least four): perspective, a click beside the joint, or swapped legs.
+/// In a side view a thigh and a shank keep their length to 7 % in good clips.
+std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int frame);
+
+/// Leg parts that a line on the screen connects.
+std::vector<std::pair<BodyPart, BodyPart>> bones();
+
+/// The frame whose asked parts are known worst, none within two frames of a click or among
+/// `passed_by`. Nothing where the prediction is trusted everywhere (above 0.5).
+std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,
+                               const std::vector<BodyPart>& parts,
+                               const std::vector<int>& passed_by);
+
+/// A line through the spots where the feet are lowest. Nothing where they are all at one place of
+/// the picture (less than a tenth of its width apart), as on a treadmill.
+std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames);
+
+}  // namespace stride

@@ -1,0 +1,57 @@
+#include "extract/annotation/predict.h"
+
+#include <chrono>
+#include <thread>
+
+#include "extract/annotation/asking.h"
+#include "extract/error.h"
+#include "extract/track.h"
+
+namespace stride {
+namespace {
+
+struct GivenUp {};
+
+bool can_be_tracked(const Keypoints& keypoints) {
+  int frames = 0;
+  for (const auto& [number, frame] : keypoints.frames) frames += frame.placed(BodyPart::pelvis);
+  return frames >= 2;
+}
+
+}  // namespace
+
+std::optional<Prediction> predict(const Keypoints& keypoints, FrameStore& frames,
+                                  const std::atomic<bool>& given_up) {
+  Prediction prediction;
+  if (!can_be_tracked(keypoints)) return prediction;
+  while (!frames.complete()) {
+    if (given_up) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::vector<double> times_s;
+  for (int i = 0; i < frames.count(); ++i)
+    times_s.push_back(frames.video_time_s(i) / keypoints.slow_motion);
+  int next = 0;
+  const FrameSource source = [&](VideoFrame& frame) {
+    if (given_up) throw GivenUp();
+    if (next >= frames.count()) return false;
+    frame.index = next;
+    frame.time_s = times_s[static_cast<std::size_t>(next)];
+    frame.image = frames.image(next);
+    ++next;
+    return true;
+  };
+  TrackOptions options;
+  options.progress = [&](int, int) {
+    if (given_up) throw GivenUp();
+  };
+  try {
+    prediction.trajectory = track(marks_of(keypoints), times_s, source, options).trajectory;
+  } catch (const GivenUp&) {
+    return std::nullopt;
+  }
+  prediction.stride_frames = stride_from_crossings(prediction.trajectory);
+  return prediction;
+}
+
+}  // namespace stride

@@ -1,0 +1,415 @@
+#include "extract/annotation_session.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <random>
+
+#include "extract/annotation/asking.h"
+#include "extract/annotation/checks.h"
+#include "extract/annotation/draw.h"
+#include "extract/annotation/predict.h"
+#include "extract/annotation/script.h"
+#include "extract/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+const std::filesystem::path kVideos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
+const std::filesystem::path kData = std::filesystem::path(STRIDE_TEST_DATA) / "annotation";
+
+using Kind = AnnotationEvent::Kind;
+using Button = AnnotationEvent::Button;
+using Mode = AnnotationSession::Mode;
+
+/// A session on the runner's clip, with nothing clicked.
+class Annotating : public ::testing::Test {
+ protected:
+  Annotating() : frames(kVideos / "human.mp4") {
+    frames.wait();
+    fresh.video = "human.mp4";
+    fresh.video_sha256 = "00";
+    fresh.width_px = frames.info().width_px;
+    fresh.height_px = frames.info().height_px;
+    journal = std::make_unique<AnnotationJournal>(folder / "human.keypoints.json", fresh);
+    session = std::make_unique<AnnotationSession>(*journal, frames);
+  }
+
+  void key(int code) {
+    AnnotationEvent event;
+    event.kind = Kind::key;
+    event.key = code;
+    session->handle(event);
+  }
+  void mouse(Kind kind, const Eigen::Vector2d& canvas, Button button = Button::left) {
+    AnnotationEvent event;
+    event.kind = kind;
+    event.p_canvas = canvas;
+    event.button = button;
+    session->handle(event);
+  }
+  Eigen::Vector2d canvas(double x_px, double y_px) const {
+    return session->view().to_canvas({x_px, y_px});
+  }
+  void click(double x_px, double y_px, Button button = Button::left) {
+    const Eigen::Vector2d p = canvas(x_px, y_px);
+    mouse(Kind::press, p, button);
+    mouse(Kind::release, p, button);
+  }
+  void answer() {
+    key('r');
+    key(key::kEnter);
+  }
+  void complete_frame(double x_px) {
+    for (int i = 0; i < 7; ++i) click(x_px, 40 + 40 * i);
+  }
+  const ClickedFrame& clicked(int frame) const { return session->keypoints().frames.at(frame); }
+
+  TemporaryFolder folder;
+  FrameStore frames;
+  Keypoints fresh;
+  std::unique_ptr<AnnotationJournal> journal;
+  std::unique_ptr<AnnotationSession> session;
+};
+
+TEST_F(Annotating, AsksForDirectionAndNearLegOnce) {
+  EXPECT_EQ(session->mode(), Mode::ask_direction);
+  click(100, 100);
+  EXPECT_TRUE(session->keypoints().frames.empty());
+  key('l');
+  EXPECT_EQ(session->mode(), Mode::ask_near_leg);
+  key(key::kEnter);
+  EXPECT_EQ(session->keypoints().direction, "left");
+  EXPECT_EQ(session->keypoints().near_leg, "left");
+  AnnotationSession again(*journal, frames);
+  EXPECT_EQ(again.mode(), Mode::click);
+}
+
+TEST_F(Annotating, AsksForThePartsInTurnAndGoesOnToTheNextPhaseFrame) {
+  answer();
+  for (const BodyPart part :
+       {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
+        BodyPart::ankle_l, BodyPart::toe_l}) {
+    ASSERT_EQ(session->asked(), part);
+    click(50 + 30 * index(part), 100);
+    EXPECT_NEAR(clicked(0)[part]->p_px.x(), 50 + 30 * index(part), 1e-9);
+  }
+  // An eighth of 0.7 s at 30 frames a second.
+  EXPECT_EQ(session->frame(), 3);
+  EXPECT_EQ(session->asked(), BodyPart::pelvis);
+}
+
+TEST_F(Annotating, TellsSeenEstimatedAndAbsentApart) {
+  answer();
+  click(100, 50);
+  click(110, 90, Button::right);
+  key('x');
+  EXPECT_EQ(clicked(0)[BodyPart::pelvis]->state, ClickState::seen);
+  EXPECT_EQ(clicked(0)[BodyPart::knee_r]->state, ClickState::estimated);
+  EXPECT_EQ(clicked(0)[BodyPart::ankle_r]->state, ClickState::absent);
+}
+
+TEST_F(Annotating, DigitsChooseAPartAndNudgesMoveItByAQuarterPixel) {
+  answer();
+  key('5');
+  EXPECT_EQ(session->asked(), BodyPart::knee_l);
+  click(200, 100);
+  key('i');
+  key('l');
+  key('l');
+  EXPECT_NEAR(clicked(0)[BodyPart::knee_l]->p_px.x(), 200.5, 1e-9);
+  EXPECT_NEAR(clicked(0)[BodyPart::knee_l]->p_px.y(), 99.75, 1e-9);
+  EXPECT_EQ(session->asked(), BodyPart::ankle_l);
+  key('0');
+  EXPECT_EQ(session->asked(), BodyPart::head);
+  key('8');
+  EXPECT_EQ(session->asked(), BodyPart::hip_r);
+}
+
+TEST_F(Annotating, DragsAPointAndStillPlacesOneOnTopOfAnother) {
+  answer();
+  click(200, 100);
+  mouse(Kind::press, canvas(201, 101));
+  mouse(Kind::move, canvas(231, 111));
+  mouse(Kind::release, canvas(231, 111));
+  EXPECT_NEAR(clicked(0)[BodyPart::pelvis]->p_px.x(), 230, 1e-9);
+  EXPECT_FALSE(clicked(0)[BodyPart::knee_r]);
+  click(231, 111);  // without a move it is a click: legs do cross
+  EXPECT_NEAR(clicked(0)[BodyPart::knee_r]->p_px.x(), 231, 1e-9);
+}
+
+TEST_F(Annotating, UndoAndRedoCoverEverything) {
+  answer();
+  complete_frame(100);
+  key('s');
+  key('m');
+  const std::string last = text_of(session->keypoints());
+  for (int i = 0; i < 40; ++i) key('u');
+  EXPECT_TRUE(session->keypoints().frames.empty());
+  EXPECT_EQ(session->keypoints().direction, "");
+  EXPECT_TRUE(session->has_problem());
+  EXPECT_EQ(session->message(), "nothing to be undone");
+  for (int i = 0; i < 40; ++i) key('r');
+  EXPECT_EQ(session->mode(), Mode::click);
+  EXPECT_EQ(text_of(session->keypoints()), last);
+}
+
+TEST_F(Annotating, SwapsLegsHereOrInARange) {
+  answer();
+  complete_frame(100);
+  complete_frame(120);
+  const double knee_r = clicked(0)[BodyPart::knee_r]->p_px.y();
+  const double knee_l = clicked(0)[BodyPart::knee_l]->p_px.y();
+  session->go_to(0);
+  key('b');
+  session->go_to(20);
+  key('s');
+  for (const int frame : {0, 3}) {
+    EXPECT_EQ(clicked(frame)[BodyPart::knee_r]->p_px.y(), knee_l);
+    EXPECT_EQ(clicked(frame)[BodyPart::knee_l]->p_px.y(), knee_r);
+  }
+  session->go_to(3);
+  key('s');
+  EXPECT_EQ(clicked(3)[BodyPart::knee_r]->p_px.y(), knee_r);
+  EXPECT_EQ(clicked(0)[BodyPart::knee_r]->p_px.y(), knee_l);
+  key('u');
+  key('u');
+  EXPECT_EQ(clicked(3)[BodyPart::knee_r]->p_px.y(), knee_r);
+  EXPECT_EQ(clicked(0)[BodyPart::knee_r]->p_px.y(), knee_r);
+}
+
+TEST_F(Annotating, CopiesWhatIsMissingFromTheNearestClickedFrame) {
+  answer();
+  complete_frame(100);
+  click(150, 50);
+  key('c');
+  EXPECT_NEAR(clicked(3)[BodyPart::pelvis]->p_px.x(), 150, 1e-9);
+  EXPECT_NEAR(clicked(3)[BodyPart::toe_l]->p_px.x(), 100, 1e-9);
+  EXPECT_FALSE(session->asked());
+}
+
+TEST_F(Annotating, ZoomedInAClickIsFinerThanAPixel) {
+  answer();
+  mouse(Kind::move, canvas(300, 200));
+  key('z');
+  EXPECT_NEAR(session->view().scale, 8, 1e-12);
+  EXPECT_NEAR(canvas(300, 200).x(), session->view().to_canvas({300, 200}).x(), 1e-9);
+  mouse(Kind::press, canvas(300, 200) + Eigen::Vector2d(1, 0));
+  EXPECT_NEAR(clicked(0)[BodyPart::pelvis]->p_px.x(), 300.125, 1e-9);
+  key('z');
+  EXPECT_NEAR(session->view().scale, session->view().fitting_scale(), 1e-12);
+}
+
+TEST_F(Annotating, TakesFloorTrimSlowMotionAndNotes) {
+  answer();
+  click(100, 50);
+  key('o');
+  click(10, 300);
+  click(600, 310);
+  EXPECT_NEAR(session->keypoints().floor->to_px.y(), 310, 1e-9);
+  session->go_to(5);
+  key('b');
+  session->go_to(60);
+  key('t');
+  EXPECT_EQ(session->keypoints().trim->first, 5);
+  EXPECT_EQ(session->keypoints().trim->last, 60);
+  key('y');
+  for (const char c : {'2', '.', '5'}) key(c);
+  key(key::kEnter);
+  EXPECT_EQ(session->keypoints().slow_motion, 2.5);
+  key('y');
+  key('q');  // a letter here, not the command
+  key(key::kEnter);
+  EXPECT_TRUE(session->has_problem());
+  EXPECT_THAT(session->message(), ::testing::HasSubstr("slow motion = 'q': must be"));
+  key('g');
+  for (const char c : {'h', 'i'}) key(c);
+  key(key::kEnter);
+  EXPECT_EQ(session->keypoints().notes, "hi");
+  EXPECT_FALSE(session->done());
+}
+
+TEST_F(Annotating, EveryEditIsOnDiskWhenTheEventReturns) {
+  answer();
+  click(100, 50);
+  click(110, 80);
+  const std::string log = read_file(journal_file_of(folder / "human.keypoints.json"));
+  EXPECT_THAT(log, ::testing::HasSubstr("knee_r"));
+  session->rest();
+  EXPECT_TRUE(load_keypoints(folder / "human.keypoints.json").frames.at(0)[BodyPart::knee_r]);
+}
+
+TEST_F(Annotating, PredictsBetweenClicksAndShowsTheWorstFrame) {
+  const Keypoints truth = load_keypoints(kVideos / "human.keypoints.json");
+  const Prediction prediction = predict(truth, frames, std::atomic<bool>(false)).value();
+  EXPECT_NEAR(prediction.stride_frames, 0.689 * 30, 0.3);  // the period the clip was made with
+  const std::atomic<bool> given_up = true;
+  EXPECT_FALSE(predict(truth, frames, given_up));
+  answer();
+  complete_frame(100);
+  session->set_prediction(prediction);
+  session->go_to(30);
+  key(key::kEnter);
+  const Point& ghost = prediction.trajectory.frames[30][BodyPart::pelvis];
+  EXPECT_EQ(clicked(30)[BodyPart::pelvis]->p_px, ghost.p_px);
+}
+
+TEST_F(Annotating, TheTimelineIsClickable) {
+  answer();
+  mouse(Kind::press, {96 + (1280 - 108) * 40.5 / 96, 720});
+  EXPECT_EQ(session->frame(), 40);
+  mouse(Kind::move, {96 + (1280 - 108) * 50.5 / 96, 500});
+  mouse(Kind::release, {0, 0});
+  EXPECT_EQ(session->frame(), 50);
+}
+
+TEST_F(Annotating, DrawsAClickWhereItWasMade) {
+  answer();
+  click(300, 100);
+  const cv::Mat picture = session->picture();
+  EXPECT_EQ(picture.size(), cv::Size(1280, 860));
+  const Eigen::Vector2d p = canvas(300, 100);
+  const auto pixel = picture.at<cv::Vec3b>(cvRound(p.y()), cvRound(p.x()));
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(pixel[i], colour::kMiddle[i], 12);
+}
+
+TEST_F(Annotating, RandomEventsNeverBreakIt) {
+  std::mt19937_64 random(5);
+  const std::string keys = "abcdefghijklmnoprstuvxyz0123456789[]-=. ?/";
+  for (int i = 0; i < 1500; ++i) {
+    switch (random() % 4) {
+      case 0:
+        key(random() % 8 == 0 ? key::kEnter : keys[random() % keys.size()]);
+        break;
+      default: {
+        AnnotationEvent event;
+        event.kind = static_cast<Kind>(random() % 4);
+        event.button = static_cast<Button>(random() % 3);
+        event.wheel = random() % 2 == 0 ? 1 : -1;
+        event.p_canvas = {static_cast<double>(random() % 1400) - 50,
+                          static_cast<double>(random() % 1000) - 50};
+        session->handle(event);
+      }
+    }
+    if (i % 100 == 0) session->picture();
+  }
+  session->picture();
+  check(session->keypoints(), "random");
+}
+
+TEST(AnnotationView, MapsBackAndForthAtEveryZoom) {
+  View view;
+  view.image_px = {1920, 1080};
+  view.area = {0, 26, 1280, 634};
+  view.fit();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> x(0, 1279), y(26, 659);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector2d at(x(random), y(random));
+    const Eigen::Vector2d before = view.to_image(at);
+    EXPECT_LT((view.to_canvas(view.to_image(at)) - at).norm(), 1e-9);
+    view.zoom(view.scale * 1.2, at);
+    EXPECT_LT((view.to_image(at) - before).norm(), 700 / view.scale);
+    if (i % 20 == 19) view.fit();
+    view.pan({random() % 100 - 50.0, 3});
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 26), Eigen::Vector2d(1279, 659)})
+      if (view.scale > 2) {
+        EXPECT_GE(view.to_image(corner).x(), -1);
+        EXPECT_LE(view.to_image(corner).x(), 1920);
+      }
+  }
+}
+
+TEST(AnnotationAsking, PhaseFramesAreEquallySpacedFromTheFirstClick) {
+  Keypoints k;
+  k.frames[4];
+  std::vector<int> frames{4};
+  for (int i = 0; i < 8; ++i) frames.push_back(next_phase_frame(k, frames.back(), 2.6));
+  EXPECT_EQ(frames, (std::vector<int>{4, 7, 9, 12, 14, 17, 20, 22, 25}));
+  EXPECT_EQ(next_phase_frame(k, 10, 2.6), 12);
+  EXPECT_EQ(next_phase_frame(k, 4, 0.5), 5);
+}
+
+TEST(AnnotationChecks, WarnsOfABoneOfAnotherLength) {
+  Keypoints k;
+  k.width_px = k.height_px = 500;
+  for (int i = 0; i < 5; ++i) {
+    k.frames[i].time_s = i;
+    k.frames[i][BodyPart::knee_r] = Click{{100, 100}, ClickState::seen, ""};
+    k.frames[i][BodyPart::ankle_r] = Click{{100, 180.0 + i}, ClickState::seen, ""};
+  }
+  EXPECT_TRUE(bone_warnings(k, 3).empty());
+  k.frames[3][BodyPart::ankle_r]->p_px.y() = 195;
+  const auto warnings = bone_warnings(k, 3);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].from, BodyPart::knee_r);
+  EXPECT_NEAR(warnings[0].length_px, 95, 1e-9);
+}
+
+TEST(AnnotationChecks, FindsTheFloorUnderTheStandingFeet) {
+  Trajectory t;
+  t.width_px = 1000;
+  for (int f = 0; f < 100; ++f) {
+    TrajectoryFrame& frame = t.frames.emplace_back();
+    frame.frame = f;
+    for (const auto& [part, phase] : {std::pair(BodyPart::toe_r, 0.0), {BodyPart::toe_l, 0.5}}) {
+      const double turn = 2 * 3.14159265358979 * (f / 20.0 + phase), x = 9 * f;
+      frame[part].p_px = {x, 400 + 0.05 * x - 40 * (1 - std::cos(turn))};
+    }
+  }
+  const auto floor = floor_from_feet(t, 20);
+  ASSERT_TRUE(floor);
+  const Eigen::Vector2d along = floor->to_px - floor->from_px;
+  EXPECT_NEAR(along.y() / along.x(), 0.05, 0.005);
+  t.width_px = 20000;
+  EXPECT_FALSE(floor_from_feet(t, 20));
+}
+
+TEST(AnnotationScript, AWholeAnnotationGivesTheGoldenFile) {
+  const TemporaryFolder folder;
+  const auto file = folder / "human.keypoints.json";
+  {
+    FrameStore frames(kVideos / "human.mp4");
+    frames.wait();
+    Keypoints fresh;
+    fresh.video = "human.mp4";
+    fresh.video_sha256 = sha256_of_file(kVideos / "human.mp4");
+    fresh.width_px = frames.info().width_px;
+    fresh.height_px = frames.info().height_px;
+    AnnotationJournal journal(file, fresh);
+    AnnotationSession session(journal, frames);
+    run_script(session, kData / "human.jsonl", [] {});
+  }
+  const Keypoints made = load_keypoints(file);
+  const Keypoints golden = load_keypoints(kVideos / "human.keypoints.json");
+  EXPECT_EQ(made.video_sha256, golden.video_sha256);
+  EXPECT_EQ(made.direction, golden.direction);
+  EXPECT_EQ(made.near_leg, golden.near_leg);
+  ASSERT_EQ(made.frames.size(), golden.frames.size());
+  for (const auto& [number, frame] : golden.frames) {
+    ASSERT_TRUE(made.frames.contains(number));
+    const ClickedFrame& other = made.frames.at(number);
+    EXPECT_NEAR(other.time_s, frame.time_s, 1e-9);
+    for (const BodyPart part : kBodyParts) {
+      ASSERT_EQ(other[part].has_value(), frame[part].has_value()) << number << name(part);
+      if (!frame[part]) continue;
+      EXPECT_EQ(other[part]->state, frame[part]->state);
+      EXPECT_LT((other[part]->p_px - frame[part]->p_px).norm(), 1e-6) << number << name(part);
+    }
+  }
+}
+
+TEST_F(Annotating, AScriptSaysWhereItFails) {
+  std::ofstream(folder / "s.jsonl")
+      << "{\"key\": \"r\"}\n{\"key\": \"Enter\"}\n{\"key\": \"f12\"}\n";
+  EXPECT_ERROR(run_script(*session, folder / "s.jsonl", [] {}), "s.jsonl:3: key 'f12': must be");
+  std::ofstream(folder / "s.jsonl") << "\n{\"key\": \"[\"}\n";
+  EXPECT_ERROR(run_script(*session, folder / "s.jsonl", [] {}),
+               "s.jsonl:2: no clicked frame before this one");
+}
+
+}  // namespace
+}  // namespace stride
