@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "videos/colour.h"
 #include "videos/costume.h"
@@ -115,7 +116,7 @@ class Cartoon final : public Costume {
     // Three tufts that fly behind.
     std::vector<Patch> patches;
     for (int i = 0; i < 3; ++i) {
-      const double flutter = 0.25 * std::sin(4 * M_PI * k.phase + i);
+      const double flutter = 0.25 * std::sin(4 * std::numbers::pi * k.phase + i);
       Patch tuft = upward(k.head, k.head_pitch - 1.15 + 0.38 * i + flutter,
                           {{0.10, 0.05, 0.05}, {0.22, 0.035, 0.035}, {0.29, 0.008, 0.008}});
       tuft.colour = flat_colour(kHair);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "videos/colour.h"
 #include "videos/costume.h"
@@ -123,7 +124,7 @@ class Human final : public Costume {
   void shirt(const Skeleton& k, const Proportions& p, std::vector<Patch>& out) const {
     const double top = p.trunk;
     // The hem swings after the hips.
-    const double sway = 0.008 * std::sin(4 * M_PI * k.phase + 0.8);
+    const double sway = 0.008 * std::sin(4 * std::numbers::pi * k.phase + 0.8);
     Patch shirt = upward(k.pelvis, k.trunk_lean,
                          {{0.045, 0.108 + sway, 0.126 - sway},
                           {0.12, 0.106, 0.112},
@@ -185,7 +186,7 @@ class Human final : public Costume {
 
   /// It swings back at every landing.
   void ponytail(const Skeleton& k, std::vector<Patch>& out) const {
-    const double swing = -0.75 + 0.35 * std::sin(4 * M_PI * k.phase);
+    const double swing = -0.75 + 0.35 * std::sin(4 * std::numbers::pi * k.phase);
     Vector3d tie = k.head + Vector3d(-0.085, 0.035, 0);
     Patch tail = hanging(tie, swing,
                          {{0, 0.018, 0.018},

@@ -37,6 +37,17 @@ TEST(SourceStride, KeepsThePelvisInTheMiddleOfItsWindow) {
   }
 }
 
+TEST(SourceStride, MirrorsARunToTheLeft) {
+  const auto video = kVideo.parent_path() / "left.mp4";
+  const Trajectory truth = load_trajectory(kVideo.parent_path() / "left.truth.csv");
+  const cv::Mat whole = read_source_stride(video, 0.7, kPeriod_s).frames[0];
+  const cv::Mat cut = read_source_stride(video, 0.7, kPeriod_s, 1, &truth, 1).frames[0];
+  const int pelvis = static_cast<int>(std::lround(truth.frames[21][BodyPart::pelvis].p_px.x()));
+  cv::Mat expected;
+  cv::flip(whole(cv::Rect(pelvis - 180, 0, 360, 360)), expected, 1);
+  EXPECT_EQ(cv::norm(cut, expected, cv::NORM_INF), 0);
+}
+
 TEST(SourceStride, SaysWhenTheVideoEndsBeforeTheStrideDoes) {
   EXPECT_ERROR(read_source_stride(kVideo, 3.0, kPeriod_s), "human.mp4");
 }
