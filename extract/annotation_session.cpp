@@ -122,6 +122,8 @@ void AnnotationSession::handle(const AnnotationEvent& event) {
 }
 
 void AnnotationSession::set_prediction(Prediction prediction) {
+  // What the user made of the guess does not hold for the stride itself.
+  if (prediction_.stride_frames == 0 && prediction.stride_frames > 0) step_factor_ = 1;
   prediction_ = std::move(prediction);
   passed_by_.clear();
 }

@@ -327,7 +327,9 @@ void AnnotationCanvas::draw_head_line() {
   if (!s_.prediction_.problem.empty()) {
     right += s_.prediction_.problem;
   } else {
-    right += s_.prediction_.revision == s_.revision() ? "tracked" : "tracking ...";
+    right += s_.prediction_.revision != s_.revision()   ? "tracking ..."
+             : s_.prediction_.trajectory.frames.empty() ? "nothing tracked yet"
+                                                        : "tracked";
   }
   right += "   ? help";
   draw_text(canvas_, right, {size.width - text_width(right) - 10, 17}, colour::kDim);

@@ -402,6 +402,13 @@ TEST(AnnotationScript, AWholeAnnotationGivesTheGoldenFile) {
   }
 }
 
+TEST(AnnotationKeys, TheReadmeHasThemAll) {
+  const std::string readme =
+      read_file(std::filesystem::path(STRIDE_SOURCE_DIR) / "extract/annotation/README.md");
+  for (const KeyHelp& help : key_help())
+    EXPECT_THAT(readme, ::testing::HasSubstr(fmt::format("| {} | {} |", help.keys, help.does)));
+}
+
 TEST_F(Annotating, AScriptSaysWhereItFails) {
   std::ofstream(folder / "s.jsonl")
       << "{\"key\": \"r\"}\n{\"key\": \"Enter\"}\n{\"key\": \"f12\"}\n";
