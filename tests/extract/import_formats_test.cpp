@@ -159,7 +159,7 @@ TEST(ImportFormats, DamagedFilesImportOrThrowErrorAndNothingElse) {
   for (const Sample& sample : samples) {
     const std::string content = read_file(kData / sample.file);
     ImportOptions options = options_of(sample);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 120; ++i) {
       options.format = i % 2 == 0 ? sample.format : "";
       std::ofstream(folder / "f") << damaged(content, random);
       try {
@@ -176,8 +176,8 @@ TEST(ImportFormats, DamagedFilesImportOrThrowErrorAndNothingElse) {
       }
     }
   }
-  EXPECT_GT(imported, 200);
-  EXPECT_GT(refused, 500);
+  EXPECT_GT(imported, 80);
+  EXPECT_GT(refused, 200);
 }
 
 }  // namespace
