@@ -55,6 +55,11 @@ RunnerEnvironment::RunnerEnvironment(const Model& model, const RunnerOptions& op
           "reference {}: has {} samples; speeds need three at least",
           options.reference ? options.reference->source : "",
           options.reference ? options.reference->samples.size() : 0);
+  if (options.reference)
+    for (const CalibratedSample& sample : options.reference->samples)
+      for (double value : sample.coordinates)
+        require(std::isfinite(value), "reference {}: at {} s a coordinate is not a number",
+                options.reference->source, sample.time_s);
   foot_r_ = model.body(options.foot == "toe" ? "toes_r" : "talus_r");
   foot_l_ = model.body(options.foot == "toe" ? "toes_l" : "talus_l");
   spec_.observation_names = Sensors::names();

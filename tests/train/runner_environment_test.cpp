@@ -228,6 +228,14 @@ TEST(RunnerOptionsAre, CheckedByName) {
   options = {};
   options.foot = "heel";
   EXPECT_ERROR(RunnerEnvironment(model, options), "foot \"heel\": must be ankle or toe");
+  options = {};
+  options.reference.emplace();
+  options.reference->source = "run.mp4";
+  options.reference->samples.resize(2);
+  EXPECT_ERROR(RunnerEnvironment(model, options), "reference run.mp4: has 2 samples");
+  options.reference->samples.resize(3);
+  options.reference->samples[1].coordinates[4] = std::nan("");
+  EXPECT_ERROR(RunnerEnvironment(model, options), "a coordinate is not a number");
 }
 
 }  // namespace
