@@ -94,6 +94,12 @@ class AnnotationSession {
   void finish_typing();
   void command(Command command, int key);
   void step(Command command);
+  void choose_part(int digit);
+  void mark_absent();
+  void accept_ghost();
+  void take_back(bool again);
+  void close_up();
+  void mark_floor_from_feet();
 
   void place(BodyPart part, const Eigen::Vector2d& p_px, ClickState state);
   void place_asked(const Eigen::Vector2d& canvas, ClickState state);
@@ -110,6 +116,7 @@ class AnnotationSession {
   void tell(std::string message, bool wrong = false);
 
   const cv::Mat& shown_image();  // of the frame; empty while it is still being decoded
+  const cv::Mat& shown_area();   // the same as the view shows it, nothing drawn on it
   const ClickedFrame* clicked(int frame) const;
   const TrajectoryFrame* predicted(int frame) const;
   std::optional<BodyPart> click_at(const Eigen::Vector2d& canvas) const;
@@ -133,7 +140,9 @@ class AnnotationSession {
   double step_factor_ = 1;      // the user's, on the spacing of phase frames
   std::vector<int> passed_by_;  // worst frames seen since the last prediction
   int shown_ = -1;              // the frame of shown_image_
-  cv::Mat shown_image_;
+  cv::Mat shown_image_, shown_area_;
+  View area_view_;  // of shown_area_
+  int area_frame_ = -1;
   std::string message_;
   bool wrong_ = false, help_ = false, done_ = false;
 };

@@ -21,6 +21,9 @@ class AnnotationCanvas {
   static std::optional<int> frame_at(const Eigen::Vector2d& p, cv::Size canvas, int frame_count);
 
  private:
+  static constexpr int kHeadLine = 26, kStatus = 30, kTimeline = 170;  // heights
+  static int timeline_top(cv::Size canvas) { return canvas.height - kStatus - kTimeline; }
+
   void draw_image();
   void draw_floor();
   void draw_ghosts();

@@ -1,6 +1,9 @@
 #include "extract/annotation/view.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "extract/annotation/draw.h"
 
 namespace stride {
 namespace {
@@ -21,9 +24,30 @@ Eigen::Vector2d View::to_image(const Eigen::Vector2d& canvas) const {
   return p0_px + (canvas - corner(area)) / scale;
 }
 
+Eigen::Vector2d View::inside(const Eigen::Vector2d& image) const {
+  return {std::clamp(image.x(), -0.5, image_px.width - 0.5),
+          std::clamp(image.y(), -0.5, image_px.height - 0.5)};
+}
+
 bool View::contains(const Eigen::Vector2d& canvas) const {
   const Eigen::Vector2d p = canvas - corner(area);
   return p.x() >= 0 && p.y() >= 0 && p.x() < area.width && p.y() < area.height;
+}
+
+cv::Mat View::piece_of(const cv::Mat& image) const {
+  // warpAffine maps centres of pixels to centres of pixels, as to_canvas() does.
+  const Eigen::Vector2d origin = to_canvas({0, 0}) - Eigen::Vector2d(area.x, area.y);
+  const auto warp = [&](const cv::Mat& from, double by, const Eigen::Vector2d& at, int how) {
+    cv::Mat piece;
+    cv::warpAffine(from, piece, cv::Matx23d(by, 0, at.x(), 0, by, at.y()), area.size(), how,
+                   cv::BORDER_CONSTANT, colour::kBackground);
+    return piece;
+  };
+  if (scale >= 0.75)
+    return warp(image, scale, origin, scale >= 6 ? cv::INTER_NEAREST : cv::INTER_LINEAR);
+  cv::Mat small;
+  cv::resize(image, small, {}, scale, scale, cv::INTER_AREA);
+  return warp(small, 1, origin + kHalf * (1 - scale), cv::INTER_LINEAR);
 }
 
 double View::fitting_scale() const {

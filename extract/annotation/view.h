@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/types.hpp>
+#include <opencv2/core/mat.hpp>
 
 namespace stride {
 
@@ -15,7 +15,11 @@ struct View {
 
   Eigen::Vector2d to_canvas(const Eigen::Vector2d& image) const;
   Eigen::Vector2d to_image(const Eigen::Vector2d& canvas) const;
-  bool contains(const Eigen::Vector2d& canvas) const;  // in `area`
+  bool contains(const Eigen::Vector2d& canvas) const;          // in `area`
+  Eigen::Vector2d inside(const Eigen::Vector2d& image) const;  // the nearest point of the image
+
+  /// What `area` shows of an image.
+  cv::Mat piece_of(const cv::Mat& image) const;
 
   double fitting_scale() const;
   void fit();                                                  // the whole image, centred
