@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "train/simulation/engine.h"
+#include "train/simulation/planar_contact.h"
+#include "train/simulation/planar_kinematics.h"
 #include "train/simulation/planar_model.h"
+#include "train/simulation/planar_state.h"
 
 namespace stride {
 
@@ -16,22 +19,9 @@ struct PlanarLinear;
 class PlanarDynamics {
  public:
   static constexpr int kGroups = PlanarModel::kMuscleGroups;
-  using Fibers = std::array<simd::V4, kGroups>;
+  using Fibers = PlanarFibers;
+  using State = PlanarState;
 
-  /// Poses, speeds and fibre lengths, or their rates, interleaved as in PlanarModel: three vectors
-  /// of coordinates, three of speeds, five of fibres. Lanes beyond the last of each are zero.
-  struct State {
-    static constexpr int kU = 3, kFiber = 6, kSize = 11;
-    std::array<simd::V4, kSize> y{};
-
-    double q(int i) const { return y[i / 4][i % 4]; }
-    double u(int i) const { return y[kU + i / 4][i % 4]; }
-    void set_q(int i, double value) { y[i / 4][i % 4] = value; }
-    void set_u(int i, double value) { y[kU + i / 4][i % 4] = value; }
-    /// Of hip, knee or ankle.
-    simd::V2 joint_q(int j) const { return simd::V2{q(2 * j), q(2 * j + 1)}; }
-    simd::V2 joint_u(int j) const { return simd::V2{u(2 * j), u(2 * j + 1)}; }
-  };
   /// What an evaluation leaves behind for observers.
   struct Forces {
     Fibers tendon_N{}, path_m{};
@@ -69,31 +59,20 @@ class PlanarDynamics {
   std::array<double, 81> mass_matrix(const State& state);
 
  private:
-  struct Kinematics;
-  struct Legs;
   /// Moment arms about hip, knee, ankle: how much a path lengthens with the angle.
   using Arms = std::array<std::array<simd::V2, 3>, PlanarModel::kMusclesOfLeg>;
-  void place(const State& state, Kinematics& k);
-  void measure_paths(const Kinematics& k, Arms& arms,
+  void measure_paths(const PlanarKinematics& k, Arms& arms,
                      std::array<simd::V2, PlanarModel::kMusclesOfLeg + 1>& lengths) const;
-  void pull_muscles(const State& state, const Fibers& activation, const Kinematics& k, State& rate,
-                    std::array<simd::V2, 3>& torque, PlanarLinear* linear);
-  void touch(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy, simd::V2& moment,
-             PlanarLinear* linear);
-  void touch_obstacles(const State& state, const Kinematics& k, simd::V2& fx, simd::V2& fy,
-                       simd::V2& moment, PlanarLinear* linear) const;
-  void assemble(const Kinematics& k, Legs& legs) const;
+  void pull_muscles(const State& state, const Fibers& activation, const PlanarKinematics& k,
+                    State& rate, std::array<simd::V2, 3>& torque, PlanarLinear* linear);
+  void push_limits(const State& state, std::array<simd::V2, 3>& torque, PlanarLinear* linear) const;
 
   PlanarModel model_;
   bool drop_contacts_, nominal_obstacles_;
   Fibers max_force_N_;
-  struct Sphere {
-    double x_m, y_m, radius_m;
-    ContactLaw law;
-  };
-  std::vector<Sphere> obstacles_;
+  std::vector<PlanarObstacle> obstacles_;
   Modes modes_{};
-  std::array<int, PlanarModel::kLegs> interval_{};  // of the knee table, where it was last
+  KneeIntervals interval_{};
   Forces forces_;
 };
 

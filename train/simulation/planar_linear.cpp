@@ -5,6 +5,7 @@
 namespace stride {
 
 using simd::both;
+using simd::sum;
 using simd::V2;
 using simd::V4;
 
@@ -16,28 +17,26 @@ struct Rows {
   double base[3];
 };
 
-Rows rows_of(const PlanarDynamics::State& y, int first) {
+Rows rows_of(const PlanarState& y, int first) {
   const V4 a = y.y[first], b = y.y[first + 1], c = y.y[first + 2];
   return {{V2{b[0], b[1]}, V2{a[2], a[3]}, V2{a[0], a[1]}}, {b[2], b[3], c[0]}};
 }
 
-void set_rows(PlanarDynamics::State& y, int first, const Rows& r) {
+void set_rows(PlanarState& y, int first, const Rows& r) {
   y.y[first] = V4{r.leg[2][0], r.leg[2][1], r.leg[1][0], r.leg[1][1]};
   y.y[first + 1] = V4{r.leg[0][0], r.leg[0][1], r.base[0], r.base[1]};
   y.y[first + 2] = V4{r.base[2], 0, 0, 0};
 }
 
-double sum(V2 v) { return v[0] + v[1]; }
-
 /// result += factor · matrix · x
-void multiply(const PlanarLinear::Matrix& matrix, double factor, const Rows& x, Rows& result) {
+void multiply(const V2 (&matrix)[6][6], double factor, const Rows& x, Rows& result) {
   V2 in[6], out[6] = {};
   for (int i = 0; i < 3; ++i) in[i] = x.leg[i], in[3 + i] = both(x.base[i]);
   for (int i = 0; i < 6; ++i) {
-    out[i] += matrix.at[i][i] * in[i];
+    out[i] += matrix[i][i] * in[i];
     for (int j = i + 1; j < 6; ++j) {
-      out[i] += matrix.at[i][j] * in[j];
-      out[j] += matrix.at[i][j] * in[i];
+      out[i] += matrix[i][j] * in[j];
+      out[j] += matrix[i][j] * in[i];
     }
   }
   for (int i = 0; i < 3; ++i) {
@@ -46,11 +45,9 @@ void multiply(const PlanarLinear::Matrix& matrix, double factor, const Rows& x, 
   }
 }
 
-const double* lanes(const PlanarDynamics::Fibers& f) {
-  return reinterpret_cast<const double*>(f.data());
-}
+const double* lanes(const PlanarFibers& f) { return reinterpret_cast<const double*>(f.data()); }
 
-V2 of_muscle(const PlanarDynamics::Fibers& f, int muscle) {
+V2 of_muscle(const PlanarFibers& f, int muscle) {
   V2 v;
   std::memcpy(&v, lanes(f) + 2 * muscle, sizeof v);
   return v;
@@ -60,13 +57,13 @@ V2 of_muscle(const PlanarDynamics::Fibers& f, int muscle) {
 
 void PlanarSolver::factor(const PlanarLinear& linear, double s) {
   s_ = s;
-  for (int g = 0; g < PlanarDynamics::kGroups; ++g) {
+  for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     delay_[g] = s / (1 - s * linear.fiber_1_s[g]);
     pull_[g] = linear.fiber_N_m[g] * delay_[g];
   }
   spring_ = linear.stiffness;
-  PlanarDynamics::Fibers stiffness;
-  for (int g = 0; g < PlanarDynamics::kGroups; ++g) {
+  PlanarFibers stiffness;
+  for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     stiffness[g] = linear.tendon_N_m[g] - pull_[g] * linear.stretch_1_s[g];
   }
   for (int m = 0; m < PlanarModel::kMusclesOfLeg; ++m) {
@@ -79,7 +76,7 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) {
       system_.at[i][j] =
-          linear.mass.at[i][j] + s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
+          linear.mass.matrix[i][j] + s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
     }
   }
   for (int p = 0; p < 3; ++p) {
@@ -92,8 +89,8 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) base_[i][j] = sum(system_.at[3 + i][3 + j]);
   }
-  const double m = linear.base_mass_kg, x = linear.base_x_m, y = linear.base_y_m;
-  base_[0][0] += linear.base_inertia_kg_m2 + m * (x * x + y * y);
+  const double m = linear.mass.base_mass_kg, x = linear.mass.base_x_m, y = linear.mass.base_y_m;
+  base_[0][0] += linear.mass.base_inertia_kg_m2 + m * (x * x + y * y);
   base_[0][1] -= m * y;
   base_[0][2] += m * x;
   base_[1][1] += m;
@@ -111,15 +108,15 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   const Rows rq = rows_of(right, 0), ru = rows_of(right, State::kU);
   // Right side: s (M Ru + Rᵀ g delay Rl - s K Rq).
   Rows b{};
-  multiply(linear.mass, 1, ru, b);
-  const double m = linear.base_mass_kg, x = linear.base_x_m, y = linear.base_y_m;
-  b.base[0] += (linear.base_inertia_kg_m2 + m * (x * x + y * y)) * ru.base[0] - m * y * ru.base[1] +
-               m * x * ru.base[2];
+  multiply(linear.mass.matrix, 1, ru, b);
+  const double m = linear.mass.base_mass_kg, x = linear.mass.base_x_m, y = linear.mass.base_y_m;
+  b.base[0] += (linear.mass.base_inertia_kg_m2 + m * (x * x + y * y)) * ru.base[0] -
+               m * y * ru.base[1] + m * x * ru.base[2];
   b.base[1] += m * (ru.base[1] - y * ru.base[0]);
   b.base[2] += m * (ru.base[2] + x * ru.base[0]);
-  multiply(spring_, -s_, rq, b);
-  PlanarDynamics::Fibers pulled;
-  for (int g = 0; g < PlanarDynamics::kGroups; ++g) {
+  multiply(spring_.at, -s_, rq, b);
+  PlanarFibers pulled;
+  for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     pulled[g] = pull_[g] * right.y[State::kFiber + g];
   }
   for (int n = 0; n < PlanarModel::kMusclesOfLeg; ++n) {
@@ -156,14 +153,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   }
   set_rows(result, 0, q);
   set_rows(result, State::kU, u);
-  alignas(32) double stretch[4 * PlanarDynamics::kGroups];
+  alignas(32) double stretch[4 * PlanarModel::kMuscleGroups];
   for (int n = 0; n < PlanarModel::kMusclesOfLeg; ++n) {
     const V2 d =
         linear.arm[n][0] * q.leg[2] + linear.arm[n][1] * q.leg[1] + linear.arm[n][2] * q.leg[0];
     std::memcpy(&stretch[2 * n], &d, sizeof d);
   }
   stretch[18] = stretch[16], stretch[19] = stretch[17];
-  for (int g = 0; g < PlanarDynamics::kGroups; ++g) {
+  for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     V4 d;
     std::memcpy(&d, &stretch[4 * g], sizeof d);
     result.y[State::kFiber + g] =

@@ -2,7 +2,8 @@
 
 #include <array>
 
-#include "train/simulation/planar_dynamics.h"
+#include "train/simulation/planar_equations.h"
+#include "train/simulation/planar_state.h"
 
 namespace stride {
 
@@ -14,24 +15,24 @@ namespace stride {
 /// where R are the moment arms. It need not be exact: the integrator's order does not depend on it.
 struct PlanarLinear {
   using V2 = simd::V2;
-  using Fibers = PlanarDynamics::Fibers;
+  using Fibers = PlanarFibers;
   /// A symmetric matrix over ankle, knee, hip, tilt, x, y of each leg; the upper triangle.
   struct Matrix {
     V2 at[6][6] = {};
   };
-  Matrix mass, damping, stiffness;
-  double base_mass_kg = 0, base_x_m = 0, base_y_m = 0, base_inertia_kg_m2 = 0;  // its own body
-  std::array<std::array<V2, 3>, PlanarModel::kMusclesOfLeg> arm{};              // hip, knee, ankle
-  Fibers tendon_N_m{};                                                          // k_t
-  Fibers fiber_N_m{};    // g = k_t / cos(pennation)
-  Fibers fiber_1_s{};    // J_l
-  Fibers stretch_1_s{};  // J_L
+  PlanarEquations mass;  // but for the right sides
+  Matrix damping, stiffness;
+  std::array<std::array<V2, 3>, PlanarModel::kMusclesOfLeg> arm{};  // hip, knee, ankle
+  Fibers tendon_N_m{};                                              // k_t
+  Fibers fiber_N_m{};                                               // g = k_t / cos(pennation)
+  Fibers fiber_1_s{};                                               // J_l
+  Fibers stretch_1_s{};                                             // J_L
 };
 
 /// Solves (1/s - T) U = R for the linearisation T and a time s: the stages of the integrator.
 class PlanarSolver {
  public:
-  using State = PlanarDynamics::State;
+  using State = PlanarState;
 
   void factor(const PlanarLinear& linear, double s);
   void solve(const PlanarLinear& linear, const State& right, State& result) const;
@@ -41,8 +42,8 @@ class PlanarSolver {
   PlanarLinear::Matrix system_, spring_;
   simd::V2 inverse_[3];
   double base_[3][3], base_inverse_[3];
-  PlanarDynamics::Fibers delay_;  // s / (1 - s J_l)
-  PlanarDynamics::Fibers pull_;   // g · delay
+  PlanarFibers delay_;  // s / (1 - s J_l)
+  PlanarFibers pull_;   // g · delay
 };
 
 }  // namespace stride
