@@ -68,7 +68,11 @@ double stride_from_crossings(const Trajectory& trajectory) {
     before = &frame;
   }
   if (crossings.size() < 2) return 0;
-  return 2 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  std::vector<double> halves;
+  for (std::size_t i = 1; i < crossings.size(); ++i)
+    halves.push_back(crossings[i] - crossings[i - 1]);
+  std::ranges::sort(halves);
+  return halves[halves.size() / 2] + halves[(halves.size() - 1) / 2];
 }
 
 }  // namespace stride

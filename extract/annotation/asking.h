@@ -27,8 +27,8 @@ std::optional<BodyPart> next_missing(const Keypoints& keypoints, int frame,
 /// click, `step_frames` apart. Returns the first beyond `frame`.
 int next_phase_frame(const Keypoints& keypoints, int frame, double step_frames);
 
-/// The stride in frames from the crossings of the ankles: twice the mean time between two of them.
-/// 0 with fewer than two crossings.
+/// The stride in frames from the crossings of the ankles: twice the median time between two of
+/// them. 0 with fewer than two crossings.
 double stride_from_crossings(const Trajectory& trajectory);
 
 }  // namespace stride

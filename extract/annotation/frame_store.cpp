@@ -14,7 +14,8 @@ constexpr double kMostBytes = 800e6;  // of images as they are
 FrameStore::FrameStore(const std::filesystem::path& file) {
   Video video(file);
   info_ = video.info();
-  compressed_ = 3.0 * info_.width_px * info_.height_px * info_.announced_frames > kMostBytes;
+  compressed_ = info_.announced_frames <= 0 ||
+                3.0 * info_.width_px * info_.height_px * info_.announced_frames > kMostBytes;
   thread_ = std::thread([this, opened = std::move(video)]() mutable { decode(std::move(opened)); });
 }
 

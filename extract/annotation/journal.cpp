@@ -59,8 +59,10 @@ class AnnotationJournal::Log {
  public:
   explicit Log(const fs::path& file) : file_(file.string()) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    require(descriptor_ >= 0, "{}: cannot be written ({}); nothing could be saved here", file_,
-            std::strerror(errno));
+    require(descriptor_ >= 0,
+            "{}: cannot be written ({}); copy the video into a folder of yours, or say --keypoints "
+            "FILE",
+            file_, std::strerror(errno));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       ::close(descriptor_);
       throw Error(

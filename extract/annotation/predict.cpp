@@ -1,6 +1,7 @@
 #include "extract/annotation/predict.h"
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "extract/annotation/asking.h"
@@ -16,6 +17,13 @@ bool can_be_tracked(const Keypoints& keypoints) {
   int frames = 0;
   for (const auto& [number, frame] : keypoints.frames) frames += frame.placed(BodyPart::pelvis);
   return frames >= 2;
+}
+
+/// From the period of the tracker's prior, where the crossings of the ankles say that there is one.
+double stride_frames(const Tracked& tracked, double rate_hz) {
+  const double crossing = stride_from_crossings(tracked.trajectory);
+  const double periodic = tracked.summary.prior.legs.period_s * rate_hz;
+  return std::abs(periodic - crossing) < 0.25 * crossing ? periodic : crossing;
 }
 
 }  // namespace
@@ -46,11 +54,13 @@ std::optional<Prediction> predict(const Keypoints& keypoints, FrameStore& frames
     if (given_up) throw GivenUp();
   };
   try {
-    prediction.trajectory = track(marks_of(keypoints), times_s, source, options).trajectory;
+    const Tracked tracked = track(marks_of(keypoints), times_s, source, options);
+    prediction.trajectory = tracked.trajectory;
+    prediction.stride_frames =
+        stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);
   } catch (const GivenUp&) {
     return std::nullopt;
   }
-  prediction.stride_frames = stride_from_crossings(prediction.trajectory);
   return prediction;
 }
 
