@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "extract/camera.h"
 #include "extract/error.h"
 #include "extract/flow.h"
 
@@ -158,11 +159,33 @@ void read_stretch(const FlowStretch& s, double part_miss, std::vector<Reading>& 
   }
 }
 
-/// Follows the marks through the frames from the first to the last.
-std::vector<FlowStretch> follow(const Trajectory& marks, const Estimates& expected,
-                                const FrameSource& frames, const TrackOptions& options) {
+/// Where the runner is, arms and head included, to be left out of the background.
+cv::Rect runner_box(const std::array<Estimate, kBodyPartCount>& parts, double size_px) {
+  Vector2d low = parts[index(BodyPart::pelvis)].p_px, high = low;
+  for (const Estimate& part : parts)
+    if (part.p_px.allFinite()) {
+      low = low.cwiseMin(part.p_px);
+      high = high.cwiseMax(part.p_px);
+    }
+  low -= Vector2d(0.4, 1.1) * size_px;  // above the pelvis trunk and head
+  high += Vector2d(0.4, 0.3) * size_px;
+  return {cv::Point(static_cast<int>(low.x()), static_cast<int>(low.y())),
+          cv::Point(static_cast<int>(high.x()), static_cast<int>(high.y()))};
+}
+
+/// What the frames from the first mark to the last show.
+struct Seen {
+  std::vector<FlowStretch> stretches;
+  std::vector<CameraStep> camera;  // of each frame; empty if it was not asked for
+};
+Seen look(const Trajectory& marks, const Estimates& expected, const FrameSource& frames,
+          const TrackOptions& options) {
+  Seen seen;
+  if (!options.flow && !options.camera) return seen;
+  const double size_px = body_size_px(marks);
+  CameraTracker camera;
   const int first = marks.frames.front().frame, last = marks.frames.back().frame;
-  FlowTracker tracker(flow_options(body_size_px(marks)), [&](BodyPart part, int frame) {
+  FlowTracker tracker(flow_options(size_px), [&](BodyPart part, int frame) {
     return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
   });
   auto mark = marks.frames.begin();
@@ -176,10 +199,32 @@ std::vector<FlowStretch> follow(const Trajectory& marks, const Estimates& expect
           places[index(part)] = (*mark)[part].p_px;
       ++mark;
     }
-    tracker.add(frame.index, frame.image, places);
+    if (options.flow) tracker.add(frame.index, frame.image, places);
+    if (options.camera) {
+      const auto& runner = expected[static_cast<std::size_t>(frame.index - first)];
+      seen.camera.push_back(camera.add(frame.image, runner_box(runner, size_px)));
+    }
     if (options.progress) options.progress(frame.index, last);
   }
-  return tracker.stretches();
+  seen.stretches = tracker.stretches();
+  return seen;
+}
+
+/// The runner stays where he is before a background that rests: within half a leg a stride.
+std::optional<bool> is_treadmill(const Trajectory& t, double size_px, double period_s) {
+  Vector2d way = Vector2d::Zero();  // of the pelvis before the background
+  double rest_px = 0;
+  int known = 0;
+  for (std::size_t i = 1; i < t.frames.size(); ++i) {
+    const TrajectoryFrame &a = t.frames[i - 1], &b = t.frames[i];
+    if (!b.camera_px.allFinite()) continue;
+    way += b[BodyPart::pelvis].p_px - a[BodyPart::pelvis].p_px - b.camera_px;
+    rest_px += b.camera_px.norm();
+    ++known;
+  }
+  if (known < static_cast<int>(t.frames.size()) / 2) return std::nullopt;
+  const double strides = known / t.rate_hz / period_s;
+  return std::abs(way.x()) < 0.5 * size_px * strides && rest_px < 0.5 * size_px * strides;
 }
 
 /// Takes weight from readings that disagree with the estimates (Student's t by reweighting).
@@ -280,8 +325,8 @@ Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
   if (options.prior) add_prediction(readings, *options.prior, marks);
   Estimates estimates = estimate(summary.prior, observations_of(readings, times_s), span_s);
 
-  const std::vector<FlowStretch> stretches =
-      options.flow ? follow(marks, estimates, frames, options) : std::vector<FlowStretch>();
+  const Seen seen = look(marks, estimates, frames, options);
+  const std::vector<FlowStretch>& stretches = seen.stretches;
   for (const BodyPart part : kBodyParts) {
     const double miss = mean_squared_miss(stretches, part);
     summary.miss_px[index(part)] = std::sqrt(2 * miss);
@@ -301,6 +346,14 @@ Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
   tracked.trajectory = marks;
   tracked.trajectory.rate_hz = median_rate_hz(times_s);
   tracked.trajectory.frames = assembled(marks, estimates, readings, times_s, body_size_px(marks));
+  for (std::size_t i = 0; i < seen.camera.size(); ++i)
+    if (seen.camera[i].known()) {
+      tracked.trajectory.frames[i].camera_px = seen.camera[i].way_px;
+      tracked.trajectory.frames[i].camera_residual_px = seen.camera[i].residual_px;
+    }
+  if (!marks.treadmill)
+    tracked.trajectory.treadmill =
+        is_treadmill(tracked.trajectory, body_size_px(marks), summary.prior.legs.period_s);
   return tracked;
 }
 
@@ -311,6 +364,7 @@ Trajectory marks_of(const Keypoints& keypoints) {
   marks.width_px = keypoints.width_px;
   marks.height_px = keypoints.height_px;
   marks.direction = keypoints.direction;
+  marks.treadmill = keypoints.treadmill;
   if (keypoints.floor) {
     const Vector2d along = keypoints.floor->to_px - keypoints.floor->from_px;
     marks.floor_roll_rad = std::atan(along.y() / along.x());
@@ -332,6 +386,19 @@ Trajectory marks_of(const Keypoints& keypoints) {
     if (any) marks.frames.push_back(frame);
   }
   return marks;
+}
+
+std::string facing(const Trajectory& points) {
+  double forward = 0;  // of the knees before the line from pelvis to ankle
+  for (const TrajectoryFrame& frame : points.frames)
+    for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
+                                      std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {
+      const Vector2d up = frame[BodyPart::pelvis].p_px - frame[ankle].p_px,
+                     shank = frame[knee].p_px - frame[ankle].p_px;
+      const double bend = up.x() * shank.y() - up.y() * shank.x();
+      if (std::isfinite(bend)) forward += bend;
+    }
+  return forward > 0 ? "right" : forward < 0 ? "left" : "";
 }
 
 VideoTimes video_times(const std::filesystem::path& file, double slow_motion) {

@@ -13,6 +13,7 @@ namespace stride {
 
 struct TrackOptions {
   bool flow = true;         // follow the picture between marks; otherwise the prior alone
+  bool camera = true;       // measure the motion of the background
   bool keep_marks = false;  // go exactly through every mark instead of averaging their noise out
   const Trajectory* prior = nullptr;  // a prediction in pixels, as from the fit of a body model
   std::function<void(int frame, int last)> progress;  // called for each frame that was followed
@@ -48,6 +49,10 @@ Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
 
 /// The clicks inside the trim range as marks.
 Trajectory marks_of(const Keypoints& keypoints);
+
+/// "right" or "left": the way the runner faces, because knees bend forward; empty if no leg was
+/// seen.
+std::string facing(const Trajectory& points);
 
 /// Times of all frames that can be decoded, and what the file is.
 struct VideoTimes {

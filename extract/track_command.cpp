@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "extract/file.h"
 #include "extract/import.h"
 #include "extract/keypoints.h"
+#include "extract/leg_identity.h"
 #include "extract/overlay.h"
 #include "extract/track.h"
 #include "extract/track_score.h"
@@ -22,6 +24,7 @@ namespace {
 struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
   double slow_motion = 0;  // 0: as the keypoints say
+  bool repair_legs = true;
   TrackOptions track;
   ImportOptions import;
 };
@@ -42,6 +45,20 @@ Trajectory marks_of(const Detections& detections, const VideoTimes& times) {
       frame.time_s = times.times_s[static_cast<std::size_t>(imported.frame)];
   }
   return marks;
+}
+
+/// Labels of a person are far apart and right; a detector's points are on most frames.
+bool are_labels(const Trajectory& marks) {
+  const auto n = static_cast<int>(marks.frames.size());
+  return n < 2 || marks.frames.back().frame - marks.frames.front().frame >= 2 * (n - 1);
+}
+
+Trajectory with_legs_repaired(const Trajectory& marks) {
+  const LegIdentity legs = repair_legs(marks);
+  for (const LegSwap& swap : legs.swaps)
+    fmt::print(stderr, "legs swapped on frames {}–{}: {}\n", swap.first_frame, swap.last_frame,
+               swap.why);
+  return legs.repaired;
 }
 
 /// The marks of the file that was asked for, and the times of the frames that they count.
@@ -65,6 +82,9 @@ Marked read_marks(const Request& request) {
     marked.marks.video_sha256 = sha256_of_file(request.video);
     marked.marks.width_px = marked.times.info.width_px;
     marked.marks.height_px = marked.times.info.height_px;
+    if (request.repair_legs && !are_labels(marked.marks))
+      marked.marks = with_legs_repaired(marked.marks);
+    marked.marks.direction = facing(marked.marks);
   } else {
     const fs::path file =
         request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
@@ -92,6 +112,16 @@ void report(const Tracked& tracked, const VideoTimes& times) {
              "the unmarked points\n",
              tracked.summary.marked_frames, t.frames.front().frame, t.frames.back().frame,
              legs.period_s, legs.noise_px, 100 * tracked.summary.believed);
+  std::vector<double> residuals;
+  for (const TrajectoryFrame& frame : t.frames)
+    if (frame.camera_px.allFinite()) residuals.push_back(frame.camera_residual_px);
+  std::ranges::sort(residuals);
+  if (residuals.empty())
+    fmt::print(stderr, "the background could not be followed\n");
+  else
+    fmt::print(stderr, "background followed on {} of {} frames, corners agree within {:.2f} px{}\n",
+               residuals.size(), t.frames.size(), residuals[residuals.size() / 2],
+               t.treadmill.value_or(false) ? "; the runner stays in place: a treadmill" : "");
   if (!times.shortfall.empty()) fmt::print(stderr, "warning: {}\n", times.shortfall);
 }
 
@@ -139,6 +169,8 @@ void add_track_command(CLI::App& app) {
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
   add_import_options(command, request->import);
+  command.add_flag("!--no-leg-repair", request->repair_legs,
+                   "leave right and left of imported points as they are");
   command.add_option("-o,--out", request->out,
                      "trajectory to write (default: NAME.trajectory.csv beside the video, unless "
                      "--export says otherwise)");

@@ -122,6 +122,7 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
         };
         TrackOptions track_options;
         track_options.flow = flow;
+        track_options.camera = false;
         return track(clicks, times.times_s, source, track_options).trajectory;
       };
       const int last = clicks.frames.back().frame;

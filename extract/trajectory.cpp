@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "extract/error.h"
@@ -40,6 +41,15 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
             file.string(), frame.frame, frame.time_s);
     previous_s = frame.time_s;
   }
+  if (table.has_meta("treadmill")) trajectory.treadmill = table.meta("treadmill") == "true";
+  if (table.has_column("camera_x")) {
+    const std::size_t x = table.column("camera_x"), y = table.column("camera_y"),
+                      residual = table.column("camera_residual");
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      trajectory.frames[i].camera_px = {table.rows[i][x], table.rows[i][y]};
+      trajectory.frames[i].camera_residual_px = table.rows[i][residual];
+    }
+  }
   for (const BodyPart part : kBodyParts) {
     const std::string prefix(name(part));
     if (!table.has_column(prefix + "_x")) continue;
@@ -71,15 +81,22 @@ Table table_of(const Trajectory& trajectory) {
   table.set_meta("direction", trajectory.direction);
   if (std::isfinite(trajectory.floor_roll_rad))
     table.set_meta("floor_roll_rad", fmt::format("{}", trajectory.floor_roll_rad));
+  if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");
+  const bool camera = std::ranges::any_of(
+      trajectory.frames, [](const TrajectoryFrame& f) { return f.camera_px.allFinite(); });
   table.columns = {"frame", "time_s"};
   for (const BodyPart part : kBodyParts)
     for (const char* suffix : {"x", "y", "confidence"})
       table.columns.push_back(fmt::format("{}_{}", name(part), suffix));
+  if (camera)
+    table.columns.insert(table.columns.end(), {"camera_x", "camera_y", "camera_residual"});
   for (const TrajectoryFrame& frame : trajectory.frames) {
     auto& row = table.rows.emplace_back(
         std::vector<double>{static_cast<double>(frame.frame), frame.time_s});
     for (const Point& point : frame.points)
       row.insert(row.end(), {point.p_px.x(), point.p_px.y(), point.confidence});
+    if (camera)
+      row.insert(row.end(), {frame.camera_px.x(), frame.camera_px.y(), frame.camera_residual_px});
   }
   return table;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct TrajectoryFrame {
   int frame = 0;      // index in decoding order, from 0
   double time_s = 0;  // of the runner: presentation time divided by the slow-motion factor
   std::array<Point, kBodyPartCount> points;
+  /// Way of the background's centre since the frame before, and how well its corners agree; NaN:
+  /// not known.
+  Eigen::Vector2d camera_px = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double camera_residual_px = std::numeric_limits<double>::quiet_NaN();
 
   const Point& operator[](BodyPart part) const { return points[index(part)]; }
   Point& operator[](BodyPart part) { return points[index(part)]; }
@@ -42,12 +47,13 @@ struct Trajectory {
       direction;  // "right" or "left": the way the runner faces in the image; empty: not known
   double floor_roll_rad =
       std::numeric_limits<double>::quiet_NaN();  // slope of a marked floor line; NaN: none
+  std::optional<bool> treadmill;  // the runner stays in place before a background at rest
   std::vector<TrajectoryFrame> frames;
 };
 
 /// NAME.trajectory.csv: `# stride trajectory 1`, unit px, columns frame, time_s, <part>_x,
-/// <part>_y, <part>_confidence. Errors name the file, and the cure where the file is a calibrated
-/// trajectory instead.
+/// <part>_y, <part>_confidence, and camera_x, camera_y, camera_residual where known. Errors name
+/// the file, and the cure where the file is a calibrated trajectory instead.
 Trajectory load_trajectory(const std::filesystem::path& file);
 void save(const Trajectory& trajectory, const std::filesystem::path& file);
 

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+
+#include "extract/commands.h"
+#include "extract/file.h"
+#include "extract/table.h"
+#include "extract/trajectory.h"
+#include "extract/video.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kVideos = STRIDE_SOURCE_DIR "/videos";
+
+void run(const std::string& arguments) {
+  CLI::App app;
+  add_extract_commands(app);
+  app.parse(arguments);
+}
+
+TEST(TrackCommand, WritesTheTrajectoryBesideTheVideoAndAnOverlay) {
+  const TemporaryFolder folder;
+  fs::copy(kVideos / "human.mp4", folder / "human.mp4");
+  fs::copy(kVideos / "human.keypoints.json", folder / "human.keypoints.json");
+  run(fmt::format("track {0}/human.mp4 --overlay {0}/seen.mp4", folder.path().string()));
+  const Trajectory trajectory = load_trajectory(folder / "human.trajectory.csv");
+  EXPECT_EQ(trajectory.video, "human.mp4");
+  EXPECT_EQ(trajectory.width_px, 640);
+  EXPECT_EQ(trajectory.video_sha256, sha256_of_file(folder / "human.mp4"));
+  EXPECT_EQ(Video(folder / "seen.mp4").info().width_px, 640);
+}
+
+TEST(TrackCommand, ExportsWhatItImported) {
+  const TemporaryFolder folder;
+  std::string clicks =
+      "frame,pelvis_x,pelvis_y,pelvis_confidence,knee_r_x,knee_r_y,"
+      "knee_r_confidence\n";
+  for (int frame = 4; frame <= 20; frame += 4)
+    clicks += fmt::format("{},300,180,1,310,240,1\n", frame);
+  write_file_atomically(folder / "clicks.csv", clicks);
+  run(fmt::format("track {}/human.mp4 --import {}/clicks.csv --export {}/out.csv --no-flow",
+                  kVideos.string(), folder.path().string(), folder.path().string()));
+  const Table table = load_csv(folder / "out.csv");
+  ASSERT_EQ(table.rows.size(), 17u);
+  EXPECT_EQ(table.columns[0], "frame");
+  EXPECT_EQ(table.columns[1], "time_s");
+  EXPECT_EQ(table.rows.front()[0], 4);
+  EXPECT_NEAR(table.rows.front()[table.column("knee_r_x")], 310, 0.5);
+  EXPECT_FALSE(fs::exists(kVideos / "human.trajectory.csv"));
+}
+
+TEST(TrackCommand, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  const std::string here = folder.path().string();
+  EXPECT_ERROR(run("track " + here + "/none.mp4"), "none.mp4: no such video");
+  fs::copy(kVideos / "human.mp4", folder / "human.mp4");
+  EXPECT_ERROR(run("track " + here + "/human.mp4"),
+               "human.keypoints.json: no such file; click points with 'stride annotate");
+  std::string clicks = read_file(kVideos / "human.keypoints.json");
+  clicks.replace(clicks.find("\"video_sha256\": \"") + 17, 4, "ffff");
+  write_file_atomically(folder / "human.keypoints.json", clicks);
+  EXPECT_ERROR(run("track " + here + "/human.mp4"),
+               "is another video than the one that was clicked");
+  write_file_atomically(folder / "far.csv",
+                        "frame,pelvis_x,pelvis_y,pelvis_confidence\n5,1,1,1\n500,1,1,1\n");
+  EXPECT_ERROR(run("track " + here + "/human.mp4 --import " + here + "/far.csv"),
+               "frame 500 is marked, but only 96 frames could be decoded");
+}
+
+}  // namespace
+}  // namespace stride
