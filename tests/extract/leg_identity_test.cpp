@@ -114,9 +114,9 @@ TEST(LegIdentity, NeverOverrulesAClick) {
   LegIdentityOptions options;
   options.clicked_frames = {40};
   const LegIdentity legs = repair_legs(points, options);
-  ASSERT_EQ(legs.swaps.size(), 1u);
-  EXPECT_EQ(legs.swaps[0].first_frame, 20);
-  EXPECT_EQ(legs.swaps[0].last_frame, 22);
+  ASSERT_FALSE(legs.swaps.empty());
+  for (const int frame : {20, 21, 22}) EXPECT_TRUE(says_swapped(legs, frame)) << frame;
+  EXPECT_FALSE(says_swapped(legs, 40));
   EXPECT_FALSE(legs.swaps[0].why.empty());
   EXPECT_GT(legs.swaps[0].evidence, 0);
 }
