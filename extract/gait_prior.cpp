@@ -256,7 +256,8 @@ Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
   return best;
 }
 
-/// Between clicks of one side. A stride that fewer than two clicks saw cannot be told from others.
+/// Between clicks of one side. A stride that hardly more than one click saw cannot be told from
+/// others.
 double median_spacing_s(const std::vector<Sample>& samples) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < samples.size(); ++i)
@@ -272,7 +273,7 @@ double median_spacing_s(const std::vector<Sample>& samples) {
 /// the clicks' spacing.
 Fitted fitted(const std::vector<GroupData>& groups) {
   std::vector<Fitted> scan;
-  const double shortest_s = std::clamp(2 * median_spacing_s(groups.front().samples), 0.4, 1.2);
+  const double shortest_s = std::clamp(1.6 * median_spacing_s(groups.front().samples), 0.4, 1.2);
   for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.015) {
     GaitKernel kernel;
     kernel.period_s = period_s;
