@@ -108,17 +108,20 @@ TEST(LegIdentity, LeavesRightNamesAloneAndFindsThePeriod) {
   EXPECT_NEAR(legs.period_s, 0.687, 0.02);  // the clip's README
 }
 
-TEST(LegIdentity, NeverOverrulesAClick) {
+TEST(LegIdentity, ExplainsASwapAndNeverOverrulesAClick) {
   Trajectory points = human();
-  for (const std::size_t i : {20u, 21u, 22u, 40u}) swap_legs(points.frames[i]);
-  LegIdentityOptions options;
-  options.clicked_frames = {40};
-  const LegIdentity legs = repair_legs(points, options);
-  ASSERT_FALSE(legs.swaps.empty());
-  for (const int frame : {20, 21, 22}) EXPECT_TRUE(says_swapped(legs, frame)) << frame;
-  EXPECT_FALSE(says_swapped(legs, 40));
+  for (const std::size_t i : {20u, 21u, 22u}) swap_legs(points.frames[i]);
+  const LegIdentity legs = repair_legs(points);
+  ASSERT_EQ(legs.swaps.size(), 1u);
+  EXPECT_EQ(legs.swaps[0].first_frame, 20);
+  EXPECT_EQ(legs.swaps[0].last_frame, 22);
   EXPECT_FALSE(legs.swaps[0].why.empty());
   EXPECT_GT(legs.swaps[0].evidence, 0);
+
+  LegIdentityOptions options;
+  options.clicked_frames = {20, 21, 22};  // then it is the other frames that are wrong
+  const LegIdentity told = repair_legs(points, options);
+  for (const int frame : {20, 21, 22}) EXPECT_FALSE(says_swapped(told, frame)) << frame;
 }
 
 TEST(LegIdentity, MovesAFootThatHangsOnTheWrongKnee) {
