@@ -10,12 +10,12 @@
 namespace stride {
 
 struct AgentOptions {
-  std::vector<int> actor_hidden{128, 128}, critic_hidden{128, 128};
+  std::vector<int> actor_hidden{64, 64}, critic_hidden{64, 64};
   std::string actor_activation = "elu", critic_activation = "elu";
   bool layer_norm = true;
-  double gamma = 0.99;       // a decision; shaping uses the same
-  double tau = 1e-3;         // how far the targets follow in one update
-  double actor_rate = 1e-4;  // Adam's α
+  double gamma = 0.985;      // a decision; shaping uses the same
+  double tau = 2e-3;         // how far the targets follow in one update
+  double actor_rate = 3e-4;  // Adam's α
   double critic_rate = 1e-3;
   double final_rate = 1;  // share of the rates that is left after decay_decisions
   double decay_decisions = 1e7;
@@ -24,7 +24,7 @@ struct AgentOptions {
   double gradient_norm_limit = 0;  // of either network; 0: none
   double error_limit = 0;          // TD errors beyond it count linearly (Huber); 0: never
   int critics = 1;                 // 2: targets take the lower of two (Fujimoto et al. 2018)
-  int n_step = 1;
+  int n_step = 3;
   int batch = 128;
 };
 

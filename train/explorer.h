@@ -13,13 +13,13 @@
 namespace stride {
 
 struct ExplorationOptions {
-  double sigma = 0.2, final_sigma = 0.1;  // of the Ornstein–Uhlenbeck noise on actions
-  double decay_decisions = 5e6;           // from one to the other, linearly
+  double sigma = 0.4, final_sigma = 0.2;  // of the Ornstein–Uhlenbeck noise on actions
+  double decay_decisions = 3e6;           // from one to the other, linearly
   double theta = 0.1;                     // its pull back to 0 a decision; 1: white
-  double spread = 1;                      // environments differ in sigma by up to this factor
-  double quiet_share = 0.1;               // of episodes have no noise
-  double parameter_share = 0.3;     // of episodes have noise on the actor's parameters instead
-  double parameter_distance = 0.1;  // root mean square change of actions that it aims at
+  double spread = 2;                      // environments differ in sigma by up to this factor
+  double quiet_share = 0.05;              // of episodes have no noise
+  double parameter_share = 0.4;     // of episodes have noise on the actor's parameters instead
+  double parameter_distance = 0.2;  // root mean square change of actions that it aims at
 };
 
 /// What a slot remembers from one decision to the next, as a checkpoint keeps it. The environment

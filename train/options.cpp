@@ -93,6 +93,8 @@ std::vector<Field> fields(TrainOptions& o) {
        &o.reward.alive_per_s},
 
       {"shaping.potential", "file in the run folder; empty: no shaping", &o.shaping.potential},
+      {"shaping.source", "where that file came from: the film finds its video there",
+       &o.shaping.source},
       {"shaping.weight", "-1: the file's", &o.shaping.weight, -1},
       {"shaping.epsilon_m", "-1: the file's", &o.shaping.epsilon_m, -1},
       {"shaping.function",

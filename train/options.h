@@ -46,6 +46,7 @@ struct RewardOptions {
 
 struct ShapingOptions {
   std::string potential;  // file, as it was copied into the run folder; empty: no shaping
+  std::string source;     // where that file came from: the source video is looked for there
   double weight = -1;     // these four override the file's own; -1 or empty: the file's
   double epsilon_m = -1;
   std::string function;  // pf1, pf2, pf3

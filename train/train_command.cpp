@@ -41,7 +41,10 @@ fs::path begin(const Request& request) {
   if (!request.config.empty()) read_toml(request.config, options);
   apply_overrides(request, options);
   std::optional<Potential> potential;
-  if (!request.potential.empty()) potential = load_potential(request.potential);
+  if (!request.potential.empty()) {
+    potential = load_potential(request.potential);
+    options.shaping.source = fs::absolute(request.potential).lexically_normal().string();
+  }
   if (!options.environment.reference.empty())
     options.environment.reference = fs::absolute(options.environment.reference).string();
   if (!options.environment.model.empty())

@@ -1,0 +1,90 @@
+#include "train/plot.h"
+
+#include <gtest/gtest.h>
+
+#include "extract/file.h"
+#include "extract/table.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+#include "train/curve.h"
+#include "train/experiment.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run whose distance grows by `slope` metres a thousand decisions.
+void write_run(const fs::path& run, double slope) {
+  Table curve = new_curve(), timing = new_timing();
+  for (int i = 0; i <= 10; ++i) {
+    std::vector<double> row(curve.columns.size(), 0.0);
+    row[0] = 1000 * i;
+    row[1] = 30 * i;
+    row[6] = slope * i;
+    curve.rows.push_back(row);
+    timing.rows.push_back({1000.0 * i, 60.0 * i, 1, 1});
+  }
+  save(curve, run / "curve.csv");
+  save(timing, run / "timing.csv");
+}
+
+TEST(Plot, ArmsAreTheFoldersThatHoldTheRuns) {
+  const std::vector<Arm> arms = arms_of({"x/baseline/1", "x/baseline/2/", "x/shaped/1", "alone"});
+  ASSERT_EQ(arms.size(), 3u);
+  EXPECT_EQ(arms[0].label, "baseline");
+  EXPECT_EQ(arms[0].runs.size(), 2u);
+  EXPECT_EQ(arms[2].label, "alone");
+}
+
+TEST(Plot, DrawsMeanAndStandardErrorAndLeavesScriptAndFigures) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  plot(arms_of({folder / "arm" / "1", folder / "arm" / "2"}), {.out = folder / "p" / "figure"});
+  const Table figures = load_csv([&] {
+    write_file_atomically(folder / "with_head.csv",
+                          "x,mean,se\n" + read_file(folder / "p" / "figure.csv"));
+    return folder / "with_head.csv";
+  }());
+  EXPECT_EQ(figures.rows.back()[0], 10000);
+  EXPECT_NEAR(figures.rows.back()[1], 20, 1e-12);
+  EXPECT_NEAR(figures.rows.back()[2], 10, 1e-12);  // |30 − 10| / 2
+  EXPECT_NEAR(figures.rows[100][1], 2 * figures.rows[100][0] / 1000, 1e-9);
+  EXPECT_THAT(read_file(folder / "p" / "figure.svg"), ::testing::HasSubstr("arm (2 seeds)"));
+  EXPECT_EQ(read_file(folder / "p" / "figure.png").substr(1, 3), "PNG");
+  EXPECT_TRUE(fs::exists(folder / "p" / "figure.gnuplot"));
+}
+
+TEST(Plot, ErrorsNameTheRunAndTheColumn) {
+  TemporaryFolder folder;
+  write_run(folder / "a", 1);
+  EXPECT_ERROR(plot(arms_of({folder / "b"}), {.out = folder / "p"}), "curve.csv: no such file");
+  EXPECT_ERROR(plot(arms_of({folder / "a"}), {.column = "speed", .out = folder / "p"}),
+               "column 'speed' is missing");
+  EXPECT_ERROR(plot(arms_of({folder / "a"}), {.against = "time", .out = folder / "p"}),
+               "--against time");
+}
+
+TEST(Experiment, HalfAndFullAreTheLastTenthsOfTheBudgets) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  const auto results = results_of(arms_of({folder / "arm" / "1", folder / "arm" / "2"}), 10'000);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].half_m, (std::vector<double>{5, 15}));
+  EXPECT_EQ(results[0].full_m, (std::vector<double>{10, 30}));
+}
+
+TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {
+  const PairedRatio same = paired_ratio({2, 4, 8}, {1, 2, 4});
+  EXPECT_NEAR(same.ratio, 2, 1e-12);
+  EXPECT_NEAR(same.low, 2, 1e-9);
+  const PairedRatio spread = paired_ratio({std::exp(1.0), std::exp(3.0)}, {1, 1});
+  EXPECT_NEAR(std::log(spread.ratio), 2, 1e-12);  // t = 12.706, s/√2 = 1
+  EXPECT_NEAR(std::log(spread.high), 2 + 12.706, 1e-9);
+  EXPECT_TRUE(std::isnan(paired_ratio({1}, {1}).ratio));
+}
+
+}  // namespace
+}  // namespace stride

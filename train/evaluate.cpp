@@ -1,0 +1,142 @@
+#include "train/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "extract/error.h"
+#include "extract/file.h"
+#include "train/evaluation_film.h"
+#include "train/runner_factory.h"
+#include "train/train.h"
+
+namespace stride {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Not a number becomes null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const Gait& gait) {
+  return {{"speed_m_s", number(gait.speed_m_s)},
+          {"last_speed_m_s", number(gait.last_speed_m_s)},
+          {"cadence_per_min", number(gait.cadence_per_min)},
+          {"step_length_m", number(gait.step_length_m)},
+          {"duty_factor", number(gait.duty_factor)},
+          {"flight_share", number(gait.flight_share)},
+          {"stride_s", number(gait.stride_s)},
+          {"peak_ground_force_bw", number(gait.peak_ground_force_bw)}};
+}
+
+Json to_json(const Evaluation& evaluation, const EvaluateOptions& options) {
+  Json episodes = Json::array();
+  for (const EpisodeSummary& episode : evaluation.episodes)
+    episodes.push_back({{"seed", episodes.size()},
+                        {"distance_m", episode.distance_m},
+                        {"reward", episode.reward},
+                        {"time_s", episode.time_s},
+                        {"fell", episode.fell},
+                        {"failed", episode.failed}});
+  return {{"format", "stride-evaluation"},
+          {"version", 1},
+          {"agent", options.agent + ".safetensors"},
+          {"distance_m", evaluation.distance_m},
+          {"distance_se_m", number(evaluation.distance_se_m)},
+          {"falls", evaluation.falls},
+          {"gait", to_json(evaluation.gait)},
+          {"episodes", episodes}};
+}
+
+/// Mean and standard error of the distances.
+void summarise(Evaluation& evaluation) {
+  const auto n = static_cast<double>(evaluation.episodes.size());
+  double sum = 0, squares = 0;
+  for (const EpisodeSummary& episode : evaluation.episodes) {
+    sum += episode.distance_m;
+    evaluation.falls += episode.fell;
+  }
+  evaluation.distance_m = sum / n;
+  for (const EpisodeSummary& episode : evaluation.episodes)
+    squares += std::pow(episode.distance_m - evaluation.distance_m, 2);
+  evaluation.distance_se_m = n > 1 ? std::sqrt(squares / (n - 1) / n) : NAN;
+}
+
+template <typename Scalar>
+std::vector<Rollout> run_episodes(const fs::path& run, const TrainOptions& train_options,
+                                  const Potential* potential, RunnerEnvironment& environment,
+                                  const EvaluateOptions& options) {
+  Observer observer = make_observer(train_options, potential, environment.spec());
+  const Policy<Scalar> policy = load_policy<Scalar>(
+      run / (options.agent + ".safetensors"), observer.names(), environment.spec().action_names);
+  std::vector<Rollout> rollouts;
+  for (int seed = 0; seed < options.episodes; ++seed)
+    rollouts.push_back(record_episode(policy, environment, observer, potential,
+                                      train_options.run.action_repeat,
+                                      static_cast<std::uint64_t>(seed)));
+  return rollouts;
+}
+
+}  // namespace
+
+std::string Evaluation::brief_report() const {
+  std::string text = fmt::format("{:.2f} m", distance_m);
+  if (episodes.size() > 1)
+    text += fmt::format(" ± {:.2f} over {} episodes", distance_se_m, episodes.size());
+  return fmt::format(
+      "{}, {} falls, {:.1f} s; {:.2f} m/s, at last {:.2f}; {:.0f} steps/min of {:.2f} m, duty "
+      "factor {:.2f}",
+      text, falls, episodes.front().time_s, gait.speed_m_s, gait.last_speed_m_s,
+      gait.cadence_per_min, gait.step_length_m, gait.duty_factor);
+}
+
+Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
+  require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
+  require(options.agent == "best" || options.agent == "agent",
+          "--agent {}: must be best, or agent: the last one", options.agent);
+  TrainOptions train_options = load_run_options(run);
+  if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
+  if (!options.rules.empty()) train_options.environment.rules = options.rules;
+  train_options.check();
+  const std::optional<Potential> loaded = load_run_potential(train_options, run);
+  const Potential* potential = loaded ? &*loaded : nullptr;
+  const std::unique_ptr<Environment> made = make_runners(train_options.environment, potential)(-1);
+  auto& environment = static_cast<RunnerEnvironment&>(*made);
+  const Model& model = environment.engine().model();
+
+  const auto run_them =
+      train_options.run.precision == "float" ? run_episodes<float> : run_episodes<double>;
+  const std::vector<Rollout> rollouts =
+      run_them(run, train_options, potential, environment, options);
+  Evaluation evaluation;
+  for (const Rollout& rollout : rollouts) evaluation.episodes.push_back(rollout.summary);
+  summarise(evaluation);
+  const Rollout& farthest = *std::ranges::max_element(
+      rollouts, {}, [](const Rollout& rollout) { return rollout.summary.distance_m; });
+  evaluation.gait = gait_of(farthest, model);
+
+  evaluation.file = run / "evaluation.json";
+  write_file_atomically(evaluation.file, to_json(evaluation, options).dump(1) + "\n");
+  write_file_atomically(run / "evaluation.mot", motion_file(farthest));
+  write_file_atomically(run / "evaluation.sto", states_file(farthest));
+  if (!options.trajectory.empty()) {
+    CalibratedTrajectory own = demonstration(farthest, model, options.from_s);
+    own.source = fs::absolute(run).lexically_normal().filename().string();
+    save(own, options.trajectory);
+  }
+  if (options.film) {
+    std::optional<SourceStride> source;
+    if (potential != nullptr)
+      source = find_source(*potential, train_options.shaping.source.empty()
+                                           ? run
+                                           : fs::path(train_options.shaping.source).parent_path());
+    write_film(farthest, model, fmt::format("{:.1f} m", farthest.summary.distance_m), source,
+               run / "evaluation.mp4");
+  }
+  return evaluation;
+}
+
+}  // namespace stride

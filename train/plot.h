@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stride {
+
+struct PlotOptions {
+  std::string against = "decisions";             // decisions, simulated (hours), wall (hours)
+  std::string column = "evaluation_distance_m";  // of curve.csv
+  std::string title = {};
+  std::filesystem::path out = "plot";  // plot.svg, plot.png, plot.csv, plot.gnuplot
+};
+
+/// Runs of one arm of an experiment, which differ in their seed.
+struct Arm {
+  std::string label;
+  std::vector<std::filesystem::path> runs;
+};
+
+/// Arms by the name of the folder that holds the runs: baseline/1 baseline/2 shaped/1 are two arms.
+/// A run whose folder is that of no other run is an arm of its own name.
+std::vector<Arm> arms_of(const std::vector<std::filesystem::path>& runs);
+
+/// Draws mean ± standard error over the runs of each arm with gnuplot, from the figures and the
+/// script that are left beside the picture. Runs are interpolated to common abscissae, as far as
+/// all of an arm go. Throws Error naming the run or column, or where gnuplot fails.
+void plot(const std::vector<Arm>& arms, const PlotOptions& options);
+
+}  // namespace stride

@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "train/plot.h"
+
+namespace stride {
+
+void add_plot_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "plot", "Learning curves of runs, mean and standard error over seeds: SVG and PNG");
+  struct Request {
+    std::vector<std::string> runs;
+    PlotOptions options;
+  };
+  const auto request = std::make_shared<Request>();
+  command
+      ->add_option("runs", request->runs,
+                   "Run folders; those in one folder are seeds of one arm, named after it")
+      ->required();
+  command->add_option("-o,--out", request->options.out, "OUT.svg, .png, .csv and .gnuplot")
+      ->capture_default_str();
+  command->add_option("--against", request->options.against, "decisions, simulated or wall")
+      ->capture_default_str();
+  command->add_option("--column", request->options.column, "Of curve.csv")->capture_default_str();
+  command->add_option("--title", request->options.title, "Of the picture");
+  command->callback([request] {
+    plot(arms_of({request->runs.begin(), request->runs.end()}), request->options);
+    fmt::print("{0}.svg\n{0}.png\n", request->options.out.string());
+  });
+}
+
+}  // namespace stride
