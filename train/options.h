@@ -45,12 +45,12 @@ struct RewardOptions {
 };
 
 struct ShapingOptions {
-  std::string potential;  // file, as it was copied into the run folder; empty: no shaping
-  std::string source;     // where that file came from: the source video is looked for there
-  double weight = -1;     // these four override the file's own; -1 or empty: the file's
-  double epsilon_m = -1;
-  std::string function;  // pf1, pf2, pf3
-  std::string index;     // time, nearest
+  std::string potential;   // file, as it was copied into the run folder; empty: no shaping
+  std::string source;      // where that file came from: the source video is looked for there
+  double scale = 0.004;    // on the file's weight; PF3 at a weight of 1 drowns the reward
+  double epsilon_m = 0.1;  // instead of the file's; -1: the file's
+  std::string function;    // pf1, pf2, pf3; empty: the file's
+  std::string index;       // time, nearest; empty: the file's
 };
 
 struct ReplayOptions {

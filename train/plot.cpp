@@ -114,7 +114,7 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   }
   std::string script = fmt::format(
       "# Run gnuplot on this file in its folder. Mean and standard error over seeds.\n"
-      "set datafile separator ','\nset key left top\nset grid lc rgb '#dddddd'\n"
+      "set datafile separator ','\nset rmargin 5\nset key left top\nset grid lc rgb '#dddddd'\n"
       "set xlabel '{}'\nset ylabel '{}' noenhanced\nset title \"{}\" noenhanced\n",
       axes.at(options.against),
       options.column == "evaluation_distance_m" ? "distance in 10 s (m)" : options.column,
@@ -143,20 +143,21 @@ void run_gnuplot(const fs::path& folder, const std::string& script) {
 }  // namespace
 
 std::vector<Arm> arms_of(const std::vector<fs::path>& runs) {
-  std::vector<std::pair<fs::path, Arm>> arms;  // by the folder that holds the runs
+  std::vector<std::pair<fs::path, Arm>> arms;  // by the folder that the label is of
   for (const fs::path& given : runs) {
     const fs::path run = fs::absolute(given / "").lexically_normal().parent_path();
-    const auto known = std::ranges::find(arms, run.parent_path(), &std::pair<fs::path, Arm>::first);
-    if (known == arms.end())
-      arms.push_back({run.parent_path(), {run.parent_path().filename().string(), {run}}});
-    else
-      known->second.runs.push_back(run);
+    const bool is_seed =
+        std::ranges::all_of(run.filename().string(), [](char c) { return c >= '0' && c <= '9'; });
+    const fs::path folder = is_seed ? run.parent_path() : run;
+    auto arm = std::ranges::find(arms, folder, &std::pair<fs::path, Arm>::first);
+    if (arm == arms.end()) {
+      arms.push_back({folder, {folder.filename().string(), {}}});
+      arm = std::prev(arms.end());
+    }
+    arm->second.runs.push_back(run);
   }
   std::vector<Arm> result;
-  for (auto& [folder, arm] : arms) {
-    if (arm.runs.size() == 1) arm.label = arm.runs.front().filename().string();
-    result.push_back(std::move(arm));
-  }
+  for (auto& [folder, arm] : arms) result.push_back(std::move(arm));
   return result;
 }
 

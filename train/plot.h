@@ -19,8 +19,8 @@ struct Arm {
   std::vector<std::filesystem::path> runs;
 };
 
-/// Arms by the name of the folder that holds the runs: baseline/1 baseline/2 shaped/1 are two arms.
-/// A run whose folder is that of no other run is an arm of its own name.
+/// Runs whose folders are named by a number are seeds of the arm that is the folder above:
+/// baseline/1 baseline/2 shaped/1 are two arms. Any other run is an arm of its own.
 std::vector<Arm> arms_of(const std::vector<std::filesystem::path>& runs);
 
 /// Draws mean ± standard error over the runs of each arm with gnuplot, from the figures and the

@@ -17,7 +17,7 @@ void add_plot_command(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   command
       ->add_option("runs", request->runs,
-                   "Run folders; those in one folder are seeds of one arm, named after it")
+                   "Run folders; those named by a number are seeds of the arm above")
       ->required();
   command->add_option("-o,--out", request->options.out, "OUT.svg, .png, .csv and .gnuplot")
       ->capture_default_str();

@@ -354,7 +354,7 @@ std::optional<Potential> load_run_potential(const TrainOptions& options, const f
   const ShapingOptions& shaping = options.shaping;
   if (shaping.potential.empty()) return std::nullopt;
   Potential potential = load_potential(run / shaping.potential);
-  if (shaping.weight >= 0) potential.weight = shaping.weight;
+  potential.weight *= shaping.scale;
   if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
   if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
   if (!shaping.index.empty())

@@ -29,9 +29,10 @@ void write_run(const fs::path& run, double slope) {
   save(timing, run / "timing.csv");
 }
 
-TEST(Plot, ArmsAreTheFoldersThatHoldTheRuns) {
-  const std::vector<Arm> arms = arms_of({"x/baseline/1", "x/baseline/2/", "x/shaped/1", "alone"});
-  ASSERT_EQ(arms.size(), 3u);
+TEST(Plot, RunsNamedByANumberAreSeedsOfTheArmAbove) {
+  const std::vector<Arm> arms =
+      arms_of({"x/baseline/1", "x/shaped/1", "x/baseline/2/", "runs/alone", "runs/other"});
+  ASSERT_EQ(arms.size(), 4u);
   EXPECT_EQ(arms[0].label, "baseline");
   EXPECT_EQ(arms[0].runs.size(), 2u);
   EXPECT_EQ(arms[2].label, "alone");

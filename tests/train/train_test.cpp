@@ -42,6 +42,7 @@ TrainOptions small_run() {
   options.agent.tau = 0.01;
   options.exploration.decay_decisions = 2000;
   options.replay.capacity = 1500;
+  options.shaping.scale = 1;
   return options;
 }
 
