@@ -1,9 +1,79 @@
 #include "calibrate/commands.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <memory>
+
+#include "calibrate/calibrate.h"
+#include "calibrate/fit_options.h"
+#include "calibrate/report.h"
+#include "extract/error.h"
+#include "extract/file.h"
 
 namespace stride {
+namespace {
 
-void add_calibrate_commands(CLI::App&) {}
+namespace fs = std::filesystem;
+
+struct CalibrateCommand {
+  fs::path trajectory, out, model = default_model_file();
+  RunnerSize size;
+  std::string direction;
+  bool force = false, no_picture = false, mot = false;
+};
+
+/// NAME of NAME.trajectory.csv, with its folder.
+fs::path stem(const fs::path& trajectory) {
+  std::string name = trajectory.filename().string();
+  for (const char* ending : {".csv", ".trajectory"})
+    if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
+  return trajectory.parent_path() / name;
+}
+
+void run(const CalibrateCommand& command) {
+  Trajectory trajectory = load_trajectory(command.trajectory);
+  if (!command.direction.empty()) trajectory.direction = command.direction;
+  const SagittalModel model = sagittal_model(load_osim(command.model));
+  const Calibration result = calibrate(trajectory, model, fit_options(command.size));
+
+  const fs::path base = stem(command.trajectory);
+  const fs::path out =
+      command.out.empty() ? fs::path(base.string() + ".calibrated.csv") : command.out;
+  const fs::path beside = out.parent_path() / base.filename();
+  const std::string report = report_text(trajectory, model, result);
+  write_file_atomically(beside.string() + ".report.txt", report);
+  fmt::print(stderr, "{}", report);
+  if (result.fit.ok && !command.no_picture)
+    draw_report(trajectory, result, beside.string() + ".report.svg");
+  require(!result.verdict.refused || (command.force && result.fit.ok),
+          "{}: {}\n(--force writes the fit nevertheless, where there is one)",
+          command.trajectory.string(), result.verdict.text());
+  save(result.run, out);
+  if (command.mot) save_mot(result.run, beside.string() + ".mot");
+  fmt::print("{}\n", out.string());
+}
+
+}  // namespace
+
+void add_calibrate_commands(CLI::App& app) {
+  const auto command = std::make_shared<CalibrateCommand>();
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "fit a trajectory in pixels to the model's proportions: metres and angles");
+  calibrate->add_option("trajectory", command->trajectory, "NAME.trajectory.csv")->required();
+  calibrate->add_option("-o,--out", command->out, "default: NAME.calibrated.csv beside it");
+  calibrate->add_option("--model", command->model, "OpenSim model (.osim)");
+  calibrate->add_option("--height", command->size.height_m, "standing height of the runner, m");
+  calibrate->add_option("--leg", command->size.leg_m, "the runner's hip to ankle, m");
+  calibrate->add_option("--scale", command->size.metres_per_pixel,
+                        "metres per pixel in the middle of the clip");
+  calibrate
+      ->add_option("--direction", command->direction, "right or left: the way the runner faces")
+      ->check(CLI::IsMember({"right", "left"}));
+  calibrate->add_flag("--mot", command->mot, "also write NAME.mot, the coordinates for OpenSim");
+  calibrate->add_flag("--no-picture", command->no_picture, "do not draw NAME.report.svg");
+  calibrate->add_flag("--force", command->force, "write the fit of a clip that was refused");
+  calibrate->callback([command] { run(*command); });
+}
 
 }  // namespace stride

@@ -1,9 +1,10 @@
 #include "shaping/commands.h"
 
-#include <CLI/CLI.hpp>
-
 namespace stride {
 
-void add_shaping_commands(CLI::App&) {}
+void add_shaping_commands(CLI::App& app) {
+  add_convert_command(app);
+  add_info_command(app);
+}
 
 }  // namespace stride

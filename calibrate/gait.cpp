@@ -1,0 +1,221 @@
+#include "calibrate/gait.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/human_running.h"
+
+namespace stride {
+namespace {
+
+constexpr int kPhases = 200;
+
+double fraction(double phase) { return phase - std::floor(phase); }
+
+/// Height of the pelvis of the runner on legs of the model.
+double to_model(const StrideFit& fit, const SagittalModel& model) {
+  return (model.thigh_m() + model.shank_m()) /
+         (fit.runner.body[body::thigh] + fit.runner.body[body::shank]);
+}
+
+/// Mean of the right and the left leg at a phase of their own cycle.
+LegAngles<double> mean_leg(const StrideFit& fit, double phase) {
+  const Runner& r = fit.runner;
+  return {evaluate_series(r.hip.data(), fit.harmonics, phase),
+          evaluate_series(r.knee.data(), fit.harmonics, phase),
+          evaluate_series(r.ankle.data(), fit.harmonics, phase)};
+}
+
+/// The shift at which hip and knee correlate best with those of measured runners.
+void find_foot_strike(const StrideFit& fit, const HumanRunning& human, Gait& gait) {
+  const auto moments = [](const std::vector<double>& values) {
+    double mean = 0, square = 0;
+    for (const double v : values) mean += v / static_cast<double>(values.size());
+    for (const double v : values) square += (v - mean) * (v - mean);
+    return std::pair(mean, std::sqrt(square));
+  };
+  std::vector<double> hip, knee, human_hip, human_knee;
+  for (int i = 0; i < kPhases; ++i) {
+    const double phase = static_cast<double>(i) / kPhases;
+    hip.push_back(mean_leg(fit, phase).hip);
+    knee.push_back(mean_leg(fit, phase).knee);
+    human_hip.push_back(human.at(human.hip.mean, phase));
+    human_knee.push_back(human.at(human.knee.mean, phase));
+  }
+  const auto [hip_mean, hip_size] = moments(hip);
+  const auto [knee_mean, knee_size] = moments(knee);
+  const auto [human_hip_mean, human_hip_size] = moments(human_hip);
+  const auto [human_knee_mean, human_knee_size] = moments(human_knee);
+  gait.likeness = -1;
+  for (int shift = 0; shift < kPhases; ++shift) {
+    double at_hip = 0, at_knee = 0;
+    for (int i = 0; i < kPhases; ++i) {
+      const int j = (i + shift) % kPhases;
+      at_hip += (hip[j] - hip_mean) * (human_hip[i] - human_hip_mean);
+      at_knee += (knee[j] - knee_mean) * (human_knee[i] - human_knee_mean);
+    }
+    const double likeness = 0.5 * (at_hip / std::max(hip_size * human_hip_size, 1e-12) +
+                                   at_knee / std::max(knee_size * human_knee_size, 1e-12));
+    if (likeness > gait.likeness) {
+      gait.likeness = likeness;
+      gait.foot_strike = static_cast<double>(shift) / kPhases;
+    }
+  }
+}
+
+/// Heights and speeds of the foot on the model, by phase after its own strike.
+struct FootPath {
+  std::vector<double> height_m;  // of the lowest point, above the lowest of the stride
+  std::vector<double> back_m;    // toe's speed backwards, m a stride
+  double lowest_m = 0;           // below the mean height of the pelvis, negative
+};
+
+FootPath foot_path(const StrideFit& fit, const SagittalModel& model, double foot_strike) {
+  FootPath path;
+  std::vector<double> x;
+  for (int i = 0; i < kPhases; ++i) {
+    const double phase = foot_strike + static_cast<double>(i) / kPhases;
+    const auto angles = mean_leg(fit, phase);
+    const double tilt = evaluate_series(fit.runner.tilt.data(), 2, phase);
+    const auto leg = place_leg(model, tilt, angles.hip, angles.knee, angles.ankle);
+    path.height_m.push_back(lowest_point(model, leg) + to_model(fit, model) * fit.bounce(phase));
+    x.push_back(leg.toe.x());
+  }
+  path.lowest_m = *std::ranges::min_element(path.height_m);
+  for (double& height : path.height_m) height -= path.lowest_m;
+  for (int i = 0; i < kPhases; ++i)
+    path.back_m.push_back((x[(i + kPhases - 1) % kPhases] - x[(i + 1) % kPhases]) * kPhases / 2);
+  return path;
+}
+
+/// Toe off: the first time that the foot, having stood, is 3 cm above where it stood.
+double duty(const FootPath& path) {
+  constexpr double kLifted = 0.03;
+  bool stood = false;
+  for (int i = 0; i < kPhases * 9 / 10; ++i) {
+    if (path.height_m[i] < 0.5 * kLifted) stood = true;
+    if (stood && path.height_m[i] > kLifted) return static_cast<double>(i) / kPhases;
+  }
+  return 0.9;
+}
+
+/// Standard deviations of a sample's points and height, from the covariance of the fit.
+void add_deviations(const StrideFit& fit, const SagittalModel& model, double phase,
+                    CalibratedSample& sample) {
+  const Eigen::VectorXd values = flattened(fit.runner);
+  const Eigen::Index n = values.size();
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2 * kBodyPartCount, n);
+  StrideFit moved = fit;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double sd = std::sqrt(fit.covariance(k, k));
+    if (!(sd > 0)) continue;
+    const double h = 1e-3 * std::min(sd, 1.0);  // central differences within a thousandth of sd
+    std::array<CalibratedSample, 2> ends;
+    for (const int end : {0, 1}) {
+      Eigen::VectorXd at = values;
+      at[k] += end == 0 ? -h : h;
+      moved.runner = unflattened(at);
+      ends[end] = pose_at(moved, model, phase);
+    }
+    for (int part = 0; part < kBodyPartCount; ++part)
+      jacobian.block<2, 1>(2 * part, k) = (ends[1].p_m[part] - ends[0].p_m[part]) / (2 * h);
+  }
+  const Eigen::VectorXd variance =
+      (jacobian * fit.covariance * jacobian.transpose()).diagonal().cwiseMax(0);
+  for (int part = 0; part < kBodyPartCount; ++part)
+    sample.sd_m[part] = variance.segment<2>(2 * part).cwiseSqrt();
+  const Eigen::Vector4d w = Bounce::weights(phase);
+  // The mean height hangs on the lowest foot: as uncertain as an ankle's height.
+  const double height_variance =
+      w.dot(fit.bounce.covariance * w) + std::pow(sample.sd_m[index(BodyPart::ankle_r)].y(), 2);
+  sample.pelvis_height_sd_m = std::sqrt(height_variance);
+}
+
+}  // namespace
+
+CalibratedSample pose_at(const StrideFit& fit, const SagittalModel& model, double phase) {
+  const Runner& r = fit.runner;
+  CalibratedSample sample;
+  sample.coordinates[0] = evaluate_series(r.tilt.data(), 2, phase);
+  sample.coordinates[2] = to_model(fit, model) * fit.bounce(phase);
+  for (const int side : {1, -1}) {
+    const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
+                                fit.harmonics, side, phase);
+    const int first = side > 0 ? 3 : 6;
+    sample.coordinates[first] = leg.hip;
+    sample.coordinates[first + 1] = leg.knee;
+    sample.coordinates[first + 2] = leg.ankle;
+  }
+  place_parts(model, sample);
+  return sample;
+}
+
+void fill_unseen_ankles(StrideFit& fit) {
+  if (fit.toes_seen) return;
+  const HumanRunning human = load_human_running();
+  Gait gait;
+  find_foot_strike(fit, human, gait);
+  fit.runner.ankle = {};
+  for (int i = 0; i < kPhases; ++i) {
+    const double phase = static_cast<double>(i) / kPhases;
+    const double value = human.at(human.ankle.mean, phase - gait.foot_strike);
+    fit.runner.ankle[0] += value / kPhases;
+    for (int h = 1; h <= fit.harmonics; ++h) {
+      const double angle = 2 * std::numbers::pi * h * phase;
+      fit.runner.ankle[2 * h - 1] += 2 * value * std::cos(angle) / kPhases;
+      fit.runner.ankle[2 * h] += 2 * value * std::sin(angle) / kPhases;
+    }
+  }
+}
+
+Gait analyse_gait(const StrideFit& fit, const SagittalModel& model) {
+  Gait gait;
+  find_foot_strike(fit, load_human_running(), gait);
+  const FootPath path = foot_path(fit, model, gait.foot_strike);
+  gait.duty = duty(path);
+  gait.pelvis_height_m = -path.lowest_m;
+  gait.bounce_m = to_model(fit, model) * fit.bounce.peak_to_peak_m();
+  // Heel strike and push-off turn the toe: the faster half of stance is the foot that stands.
+  std::vector<double> back(
+      path.back_m.begin(),
+      path.back_m.begin() + std::max(2, static_cast<int>(gait.duty * kPhases)));
+  std::ranges::sort(back, std::greater{});
+  back.resize(std::max<std::size_t>(back.size() / 2, 1));
+  double sum = 0;
+  for (const double each : back) sum += each;
+  gait.speed_m_s = sum / static_cast<double>(back.size()) / to_model(fit, model) /
+                   fit.runner.cadence[cadence::period_s];
+  return gait;
+}
+
+CalibratedTrajectory retarget(const StrideFit& fit, const Gait& gait, const SagittalModel& model,
+                              const Marks& observations) {
+  constexpr double kStep = 0.01;
+  const Runner& r = fit.runner;
+  CalibratedTrajectory run;
+  run.model = model.name;
+  run.period_s = r.cadence[cadence::period_s];
+  run.period_sd_s = fit.period_sd_s();
+  run.speed_m_s = gait.speed_m_s;
+  run.metres_per_pixel = std::exp(-r.camera[camera::log_px_per_m]);
+  run.camera_roll_rad = observations.to_left ? -r.camera[camera::roll] : r.camera[camera::roll];
+  run.rms_px = fit.rms_px;
+  run.rms_m = fit.rms_px * run.metres_per_pixel;
+  const double first_s = observations.middle_s + observations.u_s.front();
+  const double span = std::max(observations.duration_s, run.period_s);
+  for (int i = 0; i * kStep <= span + 0.5 * kStep; ++i) {
+    const double u = observations.u_s.front() + i * kStep;
+    const double phase = phase_at(r.cadence.data(), u);
+    CalibratedSample sample = pose_at(fit, model, phase);
+    sample.time_s = first_s + i * kStep;
+    sample.phase = fraction(phase - gait.foot_strike);
+    sample.coordinates[1] = gait.speed_m_s * i * kStep;
+    sample.coordinates[2] += gait.pelvis_height_m;
+    add_deviations(fit, model, phase, sample);
+    run.samples.push_back(sample);
+  }
+  return run;
+}
+
+}  // namespace stride

@@ -1,0 +1,99 @@
+#include "shaping/convert.h"
+
+#include <gtest/gtest.h>
+
+#include "extract/file.h"
+#include "extract/trajectory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+const std::filesystem::path kVideos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
+
+/// The rendered runner's true points as a trajectory to convert.
+void put_human(const TemporaryFolder& folder) {
+  std::filesystem::copy_file(kVideos / "human.truth.csv", folder / "human.trajectory.csv");
+}
+
+ConvertOptions into(const TemporaryFolder& folder) {
+  ConvertOptions options;
+  options.out = folder / "out";
+  options.pictures = false;
+  return options;
+}
+
+TEST(Convert, MakesAPotentialOfARunner) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  const auto results = convert({folder / "human.trajectory.csv"}, into(folder));
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_FALSE(results[0].failed) << results[0].verdict;
+  const Potential potential = load_potential(folder / "out" / "human.potential.json");
+  EXPECT_NEAR(potential.period_s, 0.6867, 0.003);
+  EXPECT_EQ(potential.keyframes.size(), 8u);
+  EXPECT_EQ(potential.source, "human.mp4");
+}
+
+TEST(Convert, LeavesAloneWhatHasNotChanged) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  const std::vector<std::filesystem::path> inputs{folder / "human.trajectory.csv"};
+  ConvertOptions options = into(folder);
+  EXPECT_FALSE(convert(inputs, options)[0].unchanged);
+  const auto again = convert(inputs, options);
+  EXPECT_TRUE(again[0].unchanged);
+  EXPECT_NEAR(again[0].period_s, 0.6867, 0.003);
+  options.clip.keyframes.weight = 2;
+  EXPECT_FALSE(convert(inputs, options)[0].unchanged);
+  // A run on the model's proportions, as an agent's own, is converted too, and to the same stride.
+  const auto run = convert({folder / "out" / "human.calibrated.csv"}, [&] {
+    ConvertOptions other = options;
+    other.out = folder / "other";
+    return other;
+  }());
+  EXPECT_FALSE(run[0].failed) << run[0].verdict;
+  EXPECT_EQ(read_file(folder / "other" / "human.potential.json"),
+            read_file(folder / "out" / "human.potential.json"));
+}
+
+TEST(Convert, OneFailureStopsNoOther) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  write_file_atomically(folder / "garbage.trajectory.csv", "not a table of ours\n1\n");
+  const auto results =
+      convert({folder / "garbage.trajectory.csv", folder / "human.trajectory.csv"}, into(folder));
+  EXPECT_TRUE(results[0].failed);
+  EXPECT_THAT(results[0].verdict, testing::HasSubstr("not a file of ours"));
+  EXPECT_FALSE(results[1].failed);
+  EXPECT_THAT(table_of(results), testing::HasSubstr("failed: "));
+}
+
+TEST(Convert, NamesAFileThatItCannotUse) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a.txt", "x");
+  EXPECT_ERROR(expand_inputs({folder / "a.txt"}), "a.txt: must be a video");
+  EXPECT_ERROR(expand_inputs({folder / "none.mp4"}), "none.mp4: no such file");
+  EXPECT_ERROR(expand_inputs({folder.path()}), "no video with NAME.keypoints.json");
+}
+
+TEST(Convert, ReadsSettingsOfAllClipsAndOfOne) {
+  const TemporaryFolder folder;
+  ConvertOptions options;
+  write_file_atomically(folder / "a.toml",
+                        "weight = 0.5\nfunction = \"pf2\"\n[clip.human]\nheight = 1.8\n");
+  load_convert_config(folder / "a.toml", options);
+  EXPECT_EQ(options.clip.keyframes.weight, 0.5);
+  EXPECT_FALSE(options.clip.size.height_m);
+  const ClipOptions& human = options.by_clip.at("human");
+  EXPECT_EQ(human.size.height_m, 1.8);
+  EXPECT_EQ(human.keyframes.function, InverseDistance::pf2);
+  write_file_atomically(folder / "b.toml", "wieght = 0.5\n");
+  EXPECT_ERROR(load_convert_config(folder / "b.toml", options), "key 'wieght' is not known; use");
+  write_file_atomically(folder / "c.toml", "function = \"pf9\"\n");
+  EXPECT_ERROR(load_convert_config(folder / "c.toml", options), "function = 'pf9': must be one of");
+}
+
+}  // namespace
+}  // namespace stride
