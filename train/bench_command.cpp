@@ -108,6 +108,9 @@ void run(const Arguments& arguments) {
   require(options.steps >= 0, "--steps {}: must not be negative", options.steps);
   require(options.engine.accuracy > 0 && options.engine.accuracy <= 1,
           "--accuracy {}: must be in (0, 1]; 1e-3 is the default", options.engine.accuracy);
+  require(options.engine.fixed_step_s >= 1e-6 && options.engine.fixed_step_s <= 0.01,
+          "--step-size {}: must be 1e-6 to 0.01 s; 2.5e-4 is the default",
+          options.engine.fixed_step_s);
   require(options.obstacles >= 0 && options.obstacles <= 1000, "--obstacles {}: must be 0 to 1000",
           options.obstacles);
   require(arguments.rollouts >= 1, "--rollouts {}: must be at least 1", arguments.rollouts);

@@ -40,16 +40,17 @@ AdvanceReport PlanarIntegrator::advance(PlanarDynamics& dynamics, State& y, Fibe
   const double accuracy = options_.fixed_step ? 1e-3 : options_.accuracy;
   const int nodes = static_cast<int>(std::ceil(8 * std::pow(accuracy / 1e-3, -0.25)));
   const int tracks = std::max(1, static_cast<int>(std::ceil(duration_s / kTrack_s - 1e-9)));
+  const State y_before = y;
+  const Fibers activation_before = activation;
   for (int i = 0; i < tracks && report.ok; ++i) {
     track_.build(dynamics, activation, excitation, duration_s / tracks, nodes);
-    const State before = y;
     advance_track(dynamics, y, duration_s / tracks, report);
-    if (report.ok) {
-      activation = track_.end();
-    } else {
-      y = before;
-      restart();
-    }
+    activation = track_.end();
+  }
+  if (!report.ok) {
+    y = y_before;
+    activation = activation_before;
+    restart();
   }
   return report;
 }

@@ -25,7 +25,7 @@ class PlanarIntegrator {
   /// Forgets the step size that the past suggested.
   void restart() { step_s_ = 0, since_switch_s_ = 1; }
 
-  /// On failure `y` and `activation` are the last good ones.
+  /// On failure `y` and `activation` are left as they were.
   AdvanceReport advance(PlanarDynamics& dynamics, State& y, Fibers& activation,
                         const Fibers& excitation, double duration_s);
 
