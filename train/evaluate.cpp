@@ -86,11 +86,12 @@ std::string Evaluation::brief_report() const {
   std::string text = fmt::format("{:.2f} m", distance_m);
   if (episodes.size() > 1)
     text += fmt::format(" ± {:.2f} over {} episodes", distance_se_m, episodes.size());
-  return fmt::format(
-      "{}, {} falls, {:.1f} s; {:.2f} m/s, at last {:.2f}; {:.0f} steps/min of {:.2f} m, duty "
-      "factor {:.2f}",
-      text, falls, episodes.front().time_s, gait.speed_m_s, gait.last_speed_m_s,
-      gait.cadence_per_min, gait.step_length_m, gait.duty_factor);
+  text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", falls, episodes.front().time_s,
+                      gait.speed_m_s);
+  if (!std::isfinite(gait.duty_factor)) return text + ", too few steps to speak of a gait";
+  return text + fmt::format(", at last {:.2f}; {:.0f} steps/min of {:.2f} m, duty factor {:.2f}",
+                            gait.last_speed_m_s, gait.cadence_per_min, gait.step_length_m,
+                            gait.duty_factor);
 }
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
