@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "extract/annotation/asking.h"
-#include "extract/error.h"
+#include "extract/leg_identity.h"
 #include "extract/track.h"
 
 namespace stride {
@@ -17,6 +17,16 @@ bool can_be_tracked(const Keypoints& keypoints) {
   int frames = 0;
   for (const auto& [number, frame] : keypoints.frames) frames += frame.placed(BodyPart::pelvis);
   return frames >= 2;
+}
+
+/// Clicked frames whose legs move as if they were named the wrong way round.
+std::vector<int> suspected_swaps(const Trajectory& marks) {
+  std::vector<int> suspects;
+  for (const LegSwap& swap : repair_legs(marks).swaps)
+    for (const TrajectoryFrame& frame : marks.frames)
+      if (frame.frame >= swap.first_frame && frame.frame <= swap.last_frame)
+        suspects.push_back(frame.frame);
+  return suspects;
 }
 
 /// From the period of the tracker's prior, where the crossings of the ankles say that there is one.
@@ -54,7 +64,9 @@ std::optional<Prediction> predict(const Keypoints& keypoints, FrameStore& frames
     if (given_up) throw GivenUp();
   };
   try {
-    const Tracked tracked = track(marks_of(keypoints), times_s, source, options);
+    const Trajectory marks = marks_of(keypoints);
+    prediction.suspects = suspected_swaps(marks);
+    const Tracked tracked = track(marks, times_s, source, options);
     prediction.trajectory = tracked.trajectory;
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);

@@ -242,7 +242,7 @@ TEST_F(Annotating, EveryEditIsOnDiskWhenTheEventReturns) {
   EXPECT_TRUE(load_keypoints(folder / "human.keypoints.json").frames.at(0)[BodyPart::knee_r]);
 }
 
-TEST_F(Annotating, PredictsBetweenClicksAndShowsTheWorstFrame) {
+TEST_F(Annotating, PredictsBetweenClicks) {
   const Keypoints truth = load_keypoints(kVideos / "human.keypoints.json");
   const Prediction prediction = predict(truth, frames, std::atomic<bool>(false)).value();
   EXPECT_NEAR(prediction.stride_frames, 0.689 * 30, 0.3);  // the period the clip was made with
@@ -255,6 +255,32 @@ TEST_F(Annotating, PredictsBetweenClicksAndShowsTheWorstFrame) {
   key(key::kEnter);
   const Point& ghost = prediction.trajectory.frames[30][BodyPart::pelvis];
   EXPECT_EQ(clicked(30)[BodyPart::pelvis]->p_px, ghost.p_px);
+}
+
+TEST_F(Annotating, GoesToTheWorstFramesInTurnAndToSuspectedSwaps) {
+  answer();
+  complete_frame(100);
+  Prediction prediction;
+  prediction.suspects = {7, 10};
+  for (int f = 0; f < 90; ++f) {
+    TrajectoryFrame& frame = prediction.trajectory.frames.emplace_back();
+    frame.frame = f;
+    for (Point& point : frame.points)
+      point = {{100, 100}, f == 60 ? 0.1 : f == 40 ? 0.2 : f == 1 ? 0 : 0.9};
+  }
+  session->set_prediction(prediction);
+  key('n');
+  EXPECT_EQ(session->frame(), 60);
+  key('n');
+  EXPECT_EQ(session->frame(), 40);
+  key('n');  // frame 1 is beside a click
+  EXPECT_EQ(session->message(), "the tracking is trusted everywhere else");
+  key('f');
+  EXPECT_EQ(session->frame(), 7);
+  key('f');
+  EXPECT_EQ(session->frame(), 10);
+  key('f');
+  EXPECT_EQ(session->frame(), 7);
 }
 
 TEST_F(Annotating, TheTimelineIsClickable) {
