@@ -87,7 +87,7 @@ OsimElement OsimElement::object(const char* tag) const {
   return named;
 }
 
-void OsimElement::only(std::initializer_list<std::string_view> read) const {
+void OsimElement::only(const std::vector<std::string_view>& read) const {
   for (const OsimElement& each : children()) {
     const std::string tag = each.tag();
     const bool says_nothing = each.children().empty() && each.text().empty();

@@ -48,7 +48,7 @@ class OsimElement {
 
   /// Fails at the first child that is neither among `read` nor known to leave the motion alone
   /// (appearance, notes, bookkeeping of the OpenSim application).
-  void only(std::initializer_list<std::string_view> read) const;
+  void only(const std::vector<std::string_view>& read) const;
   /// Fails unless the sets are empty or absent: things that change the motion and are not
   /// understood.
   void none_of(std::initializer_list<const char*> sets) const;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "calibrate/osim_parts.h"
 #include "extract/error.h"
@@ -49,54 +51,42 @@ void read_muscle(Model& model, const OsimElement& from) {
   Muscle muscle;
   muscle.name = from.name();
   if (model.muscle(muscle.name) >= 0) from.fail("there are two muscles of this name");
-  const std::pair<const char*, double*> numbers[] = {
-      {"max_isometric_force", &muscle.max_isometric_force_N},
-      {"optimal_fiber_length", &muscle.optimal_fiber_length_m},
-      {"tendon_slack_length", &muscle.tendon_slack_length_m},
-      {"pennation_angle_at_optimal", &muscle.pennation_angle_at_optimal_rad},
-      {"max_contraction_velocity", &muscle.max_contraction_velocity},
-      {"activation_time_constant", &muscle.activation_time_constant_s},
-      {"deactivation_time_constant", &muscle.deactivation_time_constant_s},
-      {"minimum_activation", &muscle.minimum_activation},
-      {"FmaxTendonStrain", &muscle.FmaxTendonStrain},
-      {"FmaxMuscleStrain", &muscle.FmaxMuscleStrain},
-      {"KshapeActive", &muscle.KshapeActive},
-      {"KshapePassive", &muscle.KshapePassive},
-      {"Af", &muscle.Af},
-      {"Flen", &muscle.Flen},
-      {"fv_linear_extrap_threshold", &muscle.fv_linear_extrap_threshold},
-      {"maximum_pennation_angle", &muscle.maximum_pennation_angle_rad},
-      {"default_activation", &muscle.default_activation}};
-  from.only({"isDisabled",
-             "appliesForce",
-             "GeometryPath",
-             "max_isometric_force",
-             "optimal_fiber_length",
-             "tendon_slack_length",
-             "pennation_angle_at_optimal",
-             "max_contraction_velocity",
-             "activation_time_constant",
-             "deactivation_time_constant",
-             "minimum_activation",
-             "FmaxTendonStrain",
-             "FmaxMuscleStrain",
-             "KshapeActive",
-             "KshapePassive",
-             "Af",
-             "Flen",
-             "fv_linear_extrap_threshold",
-             "maximum_pennation_angle",
-             "default_activation",
-             "default_fiber_length",
-             "ignore_tendon_compliance",
-             "ignore_activation_dynamics"});
-  for (const auto& [tag, value] : numbers) *value = from.number(tag, *value);
-  for (double* positive : {&muscle.max_isometric_force_N, &muscle.optimal_fiber_length_m,
-                           &muscle.tendon_slack_length_m, &muscle.max_contraction_velocity,
-                           &muscle.activation_time_constant_s, &muscle.deactivation_time_constant_s,
-                           &muscle.FmaxTendonStrain, &muscle.FmaxMuscleStrain})
-    if (!(*positive > 0))
-      from.fail(fmt::format("one of its figures is {}: must be > 0", *positive));
+  struct Figure {
+    const char* tag;
+    double* value;
+    bool positive;
+  };
+  const Figure figures[] = {
+      {"max_isometric_force", &muscle.max_isometric_force_N, true},
+      {"optimal_fiber_length", &muscle.optimal_fiber_length_m, true},
+      {"tendon_slack_length", &muscle.tendon_slack_length_m, true},
+      {"pennation_angle_at_optimal", &muscle.pennation_angle_at_optimal_rad, false},
+      {"max_contraction_velocity", &muscle.max_contraction_velocity, true},
+      {"activation_time_constant", &muscle.activation_time_constant_s, true},
+      {"deactivation_time_constant", &muscle.deactivation_time_constant_s, true},
+      {"minimum_activation", &muscle.minimum_activation, true},
+      {"FmaxTendonStrain", &muscle.FmaxTendonStrain, true},
+      {"FmaxMuscleStrain", &muscle.FmaxMuscleStrain, true},
+      {"KshapeActive", &muscle.KshapeActive, true},
+      {"KshapePassive", &muscle.KshapePassive, true},
+      {"Af", &muscle.Af, true},
+      {"Flen", &muscle.Flen, true},
+      {"fv_linear_extrap_threshold", &muscle.fv_linear_extrap_threshold, true},
+      {"maximum_pennation_angle", &muscle.maximum_pennation_angle_rad, true},
+      {"default_activation", &muscle.default_activation, false}};
+  std::vector<std::string_view> read{"isDisabled",
+                                     "appliesForce",
+                                     "GeometryPath",
+                                     "default_fiber_length",
+                                     "ignore_tendon_compliance",
+                                     "ignore_activation_dynamics"};
+  for (const Figure& each : figures) {
+    read.push_back(each.tag);
+    *each.value = from.number(each.tag, *each.value);
+    if (each.positive && !(*each.value > 0))
+      from.need(each.tag).fail(fmt::format("{}: must be > 0", *each.value));
+  }
+  from.only(read);
   for (const char* ignores : {"ignore_tendon_compliance", "ignore_activation_dynamics"})
     if (from.flag(ignores, false)) from.need(ignores).fail("true is not understood");
   if (const OsimElement length = from.child("default_fiber_length"))

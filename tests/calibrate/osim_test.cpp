@@ -173,7 +173,7 @@ TEST_F(BadOsim, RefusesFiguresThatAreNone) {
   EXPECT_ERROR(load_osim(with("<mass>11.777</mass>", "<mass>nan</mass>")), "must be finite");
   EXPECT_ERROR(load_osim(with("<mass>11.777</mass>", "")), "has no <mass>");
   EXPECT_ERROR(load_osim(with("<optimal_fiber_length>0.069", "<optimal_fiber_length>0")),
-               "must be > 0");
+               "<optimal_fiber_length>: 0: must be > 0");
 }
 
 TEST_F(BadOsim, RefusesNamesOfNothing) {
