@@ -132,13 +132,14 @@ std::size_t Table::column(std::string_view name) const {
 
 Table load_csv(const std::filesystem::path& file) { return parse(read_file(file), file.string()); }
 
-Table load_table(const std::filesystem::path& file, std::string_view format, int version) {
+Table load_table(const std::filesystem::path& file, std::string_view format, int version,
+                 std::string_view cure) {
   Table table = load_csv(file);
   require(!table.format.empty(),
           "{}: not a file of ours: expected '# stride {} {}' in the first line", file.string(),
           format, version);
-  require(table.format == format, "{}: is a stride {} file, a {} file is needed", file.string(),
-          table.format, format);
+  require(table.format == format, "{}: is a stride {} file, a {} file is needed{}{}", file.string(),
+          table.format, format, cure.empty() ? "" : "; ", cure);
   require(table.version >= 1 && table.version <= version,
           "{}: {} version {}: this program reads up to version {}; use a newer stride",
           file.string(), format, table.version, version);

@@ -39,7 +39,8 @@ struct Table {
 /// Reads a table and checks that it is a `format` of at most `version`. Errors name file, line and
 /// what was expected; a table of another format is named as what it is, so that the caller's cure
 /// can be added.
-Table load_table(const std::filesystem::path& file, std::string_view format, int version);
+Table load_table(const std::filesystem::path& file, std::string_view format, int version,
+                 std::string_view cure = {});
 
 /// Reads a plain CSV of numbers (no preamble required; `#` lines are skipped): the files that
 /// others write.

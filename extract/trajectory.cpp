@@ -16,7 +16,8 @@ constexpr int kVersion = 1;
 }  // namespace
 
 Trajectory load_trajectory(const std::filesystem::path& file) {
-  const Table table = load_table(file, "trajectory", kVersion);
+  const Table table =
+      load_table(file, "trajectory", kVersion, "make one from the video with `stride track`");
   require(table.meta("unit") == "px", "{}: unit = '{}': a trajectory is in px", file.string(),
           table.meta("unit"));
   Trajectory trajectory;

@@ -129,7 +129,11 @@ void check(const Potential& potential, const std::string& origin) {
 
 Potential load_potential(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const Json json = parse(read_file(path), file);
+  const std::string content = read_file(path);
+  require(!content.starts_with("# stride"),
+          "{}: is a table, a potential is needed; make one with `stride convert {} -o DIR`", file,
+          file);
+  const Json json = parse(content, file);
   const Node root{json, file, ""};
   require_format(root);
   Potential potential;

@@ -1,6 +1,7 @@
 #include "train/evaluation_film.h"
 
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 
 #include "calibrate/calibrated.h"
 #include "extract/error.h"
@@ -51,10 +52,13 @@ void write_film(const Rollout& rollout, const Model& model, const std::string& t
   const FilmModel film = film_model(model);
   const FilmOptions options{.title = title};
   VideoWriter writer(file, 1 / (kStepsPerFrame * step_s));
+  const std::size_t still = frames.size() / 2 / kStepsPerFrame * kStepsPerFrame;
   for (std::size_t i = 0; i < frames.size(); i += kStepsPerFrame) {
     const cv::Mat runner =
         film_frame(film, {frames[i].state, frames[i].kinematics, rollout.obstacles}, options);
-    writer.write(source ? side_by_side(source->at(frames[i].phase), runner) : runner);
+    const cv::Mat frame = source ? side_by_side(source->at(frames[i].phase), runner) : runner;
+    writer.write(frame);
+    if (i == still) cv::imwrite(fs::path(file).replace_extension(".jpg").string(), frame);
   }
   writer.finish();
 }

@@ -31,6 +31,7 @@ struct Field {
 };
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+const double kBelowOne = std::nextafter(1.0, 0.0);  // the end of [0, 1)
 
 std::vector<Field> fields(TrainOptions& o) {
   const std::vector<std::string> activations{"relu", "elu", "tanh"};
@@ -115,15 +116,14 @@ std::vector<Field> fields(TrainOptions& o) {
       {"agent.actor_activation", "", &o.agent.actor_activation, -kInf, kInf, activations},
       {"agent.critic_activation", "", &o.agent.critic_activation, -kInf, kInf, activations},
       {"agent.layer_norm", "layer normalisation of hidden layers", &o.agent.layer_norm},
-      {"agent.gamma", "discount a decision; shaping uses the same", &o.agent.gamma, 0,
-       std::nextafter(1.0, 0.0)},
+      {"agent.gamma", "discount a decision; shaping uses the same", &o.agent.gamma, 0, kBelowOne},
       {"agent.tau", "how far the target networks follow in an update", &o.agent.tau, 0, 1},
       {"agent.actor_rate", "Adam's step size", &o.agent.actor_rate, 0, 1},
       {"agent.critic_rate", "Adam's step size", &o.agent.critic_rate, 0, 1},
       {"agent.final_rate", "share of both rates that is left after decay_decisions",
        &o.agent.final_rate, 0, 1},
       {"agent.decay_decisions", "over which the rates fall, linearly", &o.agent.decay_decisions, 1},
-      {"agent.beta2", "Adam's", &o.agent.beta2, 0, std::nextafter(1.0, 0.0)},
+      {"agent.beta2", "Adam's", &o.agent.beta2, 0, kBelowOne},
       {"agent.weight_decay", "of the critic, decoupled", &o.agent.weight_decay, 0, 1000},
       {"agent.gradient_norm_limit", "0: none", &o.agent.gradient_norm_limit, 0},
       {"agent.error_limit", "TD errors beyond it count linearly; 0: never", &o.agent.error_limit,
@@ -253,8 +253,9 @@ void parse(const std::string& toml, const std::string& source, TrainOptions& opt
 }
 
 void check_range(const Field& field, double value, const std::string& text) {
-  require(value >= field.min && value <= field.max, "{} = {}: must be in [{}, {}]", field.key, text,
-          field.min, field.max);
+  const bool below_one = field.max == kBelowOne;
+  require(value >= field.min && value <= field.max, "{} = {}: must be in [{}, {}{}", field.key,
+          text, field.min, below_one ? 1 : field.max, below_one ? ')' : ']');
 }
 
 void check_field(const Field& field) {
