@@ -49,7 +49,8 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
     return load_potential(folder / "p.json");
   };
   EXPECT_ERROR(load_potential(folder / "none.json"), "none.json: no such file");
-  EXPECT_ERROR(load("# stride calibrated 1\n"), "p.json: is not JSON");
+  EXPECT_ERROR(load("# stride calibrated 1\n"), "is a table, a potential is needed");
+  EXPECT_ERROR(load("no"), "p.json: is not JSON");
   EXPECT_ERROR(load("{}"), "p.json: is not a potential: the key format");
   EXPECT_ERROR(load(with(hamner_text(), "\"version\": 1", "\"version\": 2")),
                "version = 2: this program reads version 1; make the file anew");
