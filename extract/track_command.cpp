@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -5,16 +6,13 @@
 #include <memory>
 #include <optional>
 
-#include "extract/annotation/journal.h"
 #include "extract/commands.h"
-#include "extract/error.h"
 #include "extract/export.h"
 #include "extract/file.h"
 #include "extract/import.h"
-#include "extract/keypoints.h"
 #include "extract/leg_identity.h"
+#include "extract/marked.h"
 #include "extract/overlay.h"
-#include "extract/track.h"
 #include "extract/track_score.h"
 
 namespace stride {
@@ -61,46 +59,31 @@ Trajectory with_legs_repaired(const Trajectory& marks) {
   return legs.repaired;
 }
 
-/// The marks of the file that was asked for, and the times of the frames that they count.
-struct Marked {
-  Trajectory marks;
-  VideoTimes times;
-};
-
-Marked read_marks(const Request& request) {
+/// The points of another program on the frames of the video.
+Marked imported(const Request& request) {
   Marked marked;
-  const std::string video = request.video.filename().string();
-  if (!request.import_from.empty()) {
-    marked.times = video_times(request.video, request.slow_motion > 0 ? request.slow_motion : 1);
-    ImportOptions options = request.import;
-    if (options.rate_hz == 0) options.rate_hz = marked.times.info.rate_hz;
-    const Detections detections = import_points(request.import_from, options);
-    fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n", request.import_from.string(),
-               detections.frames.size(), detections.format, detections.person,
-               detections.people.size());
-    marked.marks = marks_of(detections, marked.times);
-    marked.marks.video_sha256 = sha256_of_file(request.video);
-    marked.marks.width_px = marked.times.info.width_px;
-    marked.marks.height_px = marked.times.info.height_px;
-    if (request.repair_legs && !are_labels(marked.marks))
-      marked.marks = with_legs_repaired(marked.marks);
-    marked.marks.direction = facing(marked.marks);
-  } else {
-    const fs::path file =
-        request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-    require(fs::exists(request.video), "{}: no such video", request.video.string());
-    fold_left_over_journal(file);
-    require(fs::exists(file),
-            "{}: no such file; click points with 'stride annotate {}', or give --import",
-            file.string(), request.video.string());
-    Keypoints keypoints = load_keypoints(file);
-    check_belongs_to(keypoints, request.video);
-    if (request.slow_motion > 0) keypoints.slow_motion = request.slow_motion;
-    marked.times = video_times(request.video, keypoints.slow_motion);
-    marked.marks = marks_of(keypoints);
-  }
-  marked.marks.video = video;
+  marked.times = video_times(request.video, request.slow_motion > 0 ? request.slow_motion : 1);
+  ImportOptions options = request.import;
+  if (options.rate_hz == 0) options.rate_hz = marked.times.info.rate_hz;
+  const Detections detections = import_points(request.import_from, options);
+  fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n", request.import_from.string(),
+             detections.frames.size(), detections.format, detections.person,
+             detections.people.size());
+  marked.marks = marks_of(detections, marked.times);
+  marked.marks.video_sha256 = sha256_of_file(request.video);
+  marked.marks.width_px = marked.times.info.width_px;
+  marked.marks.height_px = marked.times.info.height_px;
+  if (request.repair_legs && !are_labels(marked.marks))
+    marked.marks = with_legs_repaired(marked.marks);
+  marked.marks.direction = facing(marked.marks);
+  marked.marks.video = request.video.filename().string();
   return marked;
+}
+
+Marked clicked(const Request& request) {
+  const fs::path file =
+      request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
+  return clicks_on(request.video, file, request.slow_motion);
 }
 
 void report(const Tracked& tracked, const VideoTimes& times) {
@@ -130,15 +113,12 @@ void run(Request request) {
     fmt::print("{}", table_of(score_tracking(request.video, request.score)));
     return;
   }
-  const Marked marked = read_marks(request);
+  const Marked marked = request.import_from.empty() ? clicked(request) : imported(request);
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
   request.track.progress = show_progress;
-  Video video(request.video);
-  const Tracked tracked = track(
-      marked.marks, marked.times.times_s, [&](VideoFrame& frame) { return video.read(frame); },
-      request.track);
+  const Tracked tracked = track(request.video, marked, request.track);
   report(tracked, marked.times);
 
   if (!request.overlay.empty()) {

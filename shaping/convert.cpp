@@ -11,10 +11,10 @@
 
 #include "calibrate/calibrate.h"
 #include "calibrate/report.h"
+#include "extract/annotation/journal.h"
 #include "extract/error.h"
 #include "extract/file.h"
-#include "extract/keypoints.h"
-#include "extract/track.h"
+#include "extract/marked.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -45,6 +45,8 @@ class Clip {
   }
 
   Converted convert() {
+    // Before the inputs are compared with those of the last time.
+    if (is_video(input_)) fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
     if (!options_.again && is_done(stamp)) return result_;
     const CalibratedTrajectory run = calibrated();
@@ -89,21 +91,10 @@ class Clip {
   }
 
   Trajectory tracked() {
-    const fs::path file = keypoints_file_of(input_);
-    require(fs::exists(file),
-            "{}: no such file; click points with 'stride annotate {}', or import them with 'stride "
-            "track --import'",
-            file.string(), input_.string());
-    Keypoints keypoints = load_keypoints(file);
-    check_belongs_to(keypoints, input_);
-    if (clip_.slow_motion > 0) keypoints.slow_motion = clip_.slow_motion;
-    Trajectory marks = marks_of(keypoints);
-    marks.video = input_.filename().string();
-    Video video(input_);
-    const Tracked tracked = track(marks, video_times(input_, keypoints.slow_motion).times_s,
-                                  [&](VideoFrame& frame) { return video.read(frame); });
-    save(tracked.trajectory, out(kTrajectory));
-    return tracked.trajectory;
+    const Marked marked = clicks_on(input_, keypoints_file_of(input_), clip_.slow_motion);
+    Trajectory trajectory = track(input_, marked).trajectory;
+    save(trajectory, out(kTrajectory));
+    return trajectory;
   }
 
   void describe(const CalibratedTrajectory& run, double duration_s) {

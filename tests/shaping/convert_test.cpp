@@ -1,7 +1,10 @@
 #include "shaping/convert.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "extract/annotation/journal.h"
 #include "extract/file.h"
 #include "extract/trajectory.h"
 #include "tests/support/temporary_folder.h"
@@ -56,6 +59,26 @@ TEST(Convert, LeavesAloneWhatHasNotChanged) {
   EXPECT_FALSE(run[0].failed) << run[0].verdict;
   EXPECT_EQ(read_file(folder / "other" / "human.potential.json"),
             read_file(folder / "out" / "human.potential.json"));
+}
+
+TEST(Convert, TakesTheClicksThatAKilledWindowLeft) {
+  const TemporaryFolder folder;
+  for (const char* name : {"human.mp4", "human.keypoints.json"})
+    std::filesystem::copy_file(kVideos / name, folder / name);
+  const auto clicks = folder / "human.keypoints.json";
+  EXPECT_FALSE(convert({folder / "human.mp4"}, into(folder))[0].failed);
+  const auto frame = load_keypoints(clicks).frames.begin()->first;
+  const pid_t window = ::fork();
+  if (window == 0) {
+    AnnotationJournal journal(clicks, Keypoints());
+    const Click click{{1.5, 2.5}, ClickState::seen, ""};
+    journal.apply({"a click", {{frame, 0, BodyPart::head, click}}, {}});
+    ::_exit(0);
+  }
+  ::waitpid(window, nullptr, 0);
+  EXPECT_FALSE(load_keypoints(clicks).frames.at(frame)[BodyPart::head]);
+  EXPECT_FALSE(convert({folder / "human.mp4"}, into(folder))[0].unchanged);
+  EXPECT_EQ(load_keypoints(clicks).frames.at(frame)[BodyPart::head]->p_px.x(), 1.5);
 }
 
 TEST(Convert, OneFailureStopsNoOther) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "extract/track.h"
+
+namespace stride {
+
+/// What is marked on a video, and the times of the frames that the marks count.
+struct Marked {
+  Trajectory marks;
+  VideoTimes times;
+};
+
+/// The clicks on a video, those that a killed `stride annotate` left in its journal included.
+/// `slow_motion` > 0 replaces what the clicks say. Throws Error naming the cure where there is no
+/// such video, where it was not clicked, or where it is not the one that was clicked.
+Marked clicks_on(const std::filesystem::path& video, const std::filesystem::path& keypoints_file,
+                 double slow_motion);
+
+/// Follows the marks through the frames of their video.
+Tracked track(const std::filesystem::path& video, const Marked& marked,
+              const TrackOptions& options = {});
+
+}  // namespace stride
