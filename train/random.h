@@ -1,15 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
-#include <random>
+
+#include "extract/random.h"
 
 namespace stride {
-
-/// The source of every random number of a run. Engines give the same numbers everywhere;
-/// distributions of the standard library do not, so the three that are needed are here.
-using Random = std::mt19937_64;
 
 /// An independent seed for stream `stream` of a run: a finaliser of splitmix64 over both.
 inline std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t stream) {
@@ -19,21 +14,12 @@ inline std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t stream) {
   return z ^ (z >> 31);
 }
 
-/// Uniform in [0, 1).
-inline double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
-
 /// Uniform in 0 … n − 1, without bias.
 inline std::uint64_t uniform_index(Random& random, std::uint64_t n) {
   const std::uint64_t limit = Random::max() - Random::max() % n;
   std::uint64_t draw = random();
   while (draw >= limit) draw = random();
   return draw % n;
-}
-
-/// Standard normal (Box and Muller; the second value is not kept, so there is no hidden state).
-inline double normal(Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - uniform(random)));
-  return radius * std::cos(2 * std::numbers::pi * uniform(random));
 }
 
 }  // namespace stride

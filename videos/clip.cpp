@@ -2,10 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "extract/error.h"
-#include "videos/noise.h"
+#include "extract/random.h"
 
 namespace stride::videos {
 namespace {
@@ -177,7 +176,7 @@ Motion::Motion(const Clip& clip) : clip_(clip), grounding_(ground(clip.gait, cli
 }
 
 std::vector<Motion::Wave> Motion::waves(std::uint64_t salt) const {
-  std::mt19937_64 engine(clip_.seed * 1000 + salt);
+  Random engine(clip_.seed * 1000 + salt);
   std::vector<Wave> waves(3);
   for (std::size_t i = 0; i < waves.size(); ++i)
     waves[i] = {(0.15 + 0.35 * static_cast<double>(i) + 0.2 * uniform(engine)),

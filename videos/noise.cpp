@@ -1,7 +1,8 @@
 #include "videos/noise.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "extract/random.h"
 
 namespace stride::videos {
 namespace {
@@ -10,15 +11,8 @@ constexpr int kSize = 256;
 
 }  // namespace
 
-double uniform(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1p-53; }
-
-double Normal::operator()() {
-  const double radius = std::sqrt(-2 * std::log(1 - uniform(engine_)));
-  return radius * std::cos(2 * std::numbers::pi * uniform(engine_));
-}
-
 Texture::Texture(std::uint64_t seed) : lattice_(kSize * kSize) {
-  std::mt19937_64 engine(seed);
+  Random engine(seed);
   for (float& value : lattice_) value = static_cast<float>(2 * uniform(engine) - 1);
 }
 

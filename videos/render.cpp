@@ -6,8 +6,8 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/error.h"
+#include "extract/random.h"
 #include "videos/costume.h"
-#include "videos/noise.h"
 #include "videos/scene.h"
 
 namespace stride::videos {
@@ -63,7 +63,7 @@ std::unique_ptr<Scene> make_scene(const Clip& clip) {
 
 /// What lens and sensor make of the light of a frame.
 cv::Mat developed(const cv::Mat& light, const Clip& clip, int index) {
-  Normal normal(clip.seed * 104729 + static_cast<std::uint64_t>(index));
+  Random random(clip.seed * 104729 + static_cast<std::uint64_t>(index));
   cv::Mat picture(light.size(), CV_8UC3);
   for (int v = 0; v < light.rows; ++v)
     for (int u = 0; u < light.cols; ++u) {
@@ -71,7 +71,7 @@ cv::Mat developed(const cv::Mat& light, const Clip& clip, int index) {
       const double vignette = 1 - clip.vignette * (x * x + y * y);
       for (int c = 0; c < 3; ++c) {
         const double value = 255 * vignette * light.at<Colour>(v, u)[c];
-        const double noise = clip.noise_grey > 0 ? clip.noise_grey * normal() : 0;
+        const double noise = clip.noise_grey > 0 ? clip.noise_grey * normal(random) : 0;
         picture.at<cv::Vec3b>(v, u)[c] = cv::saturate_cast<uchar>(value + noise);
       }
     }

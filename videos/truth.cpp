@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "extract/file.h"
-#include "videos/noise.h"
+#include "extract/random.h"
 
 namespace stride::videos {
 namespace {
@@ -93,7 +93,7 @@ Keypoints clicks(const Clip& clip) {
   if (clip.treadmill) keypoints.treadmill = true;
   keypoints.slow_motion = clip.slow_motion;
   keypoints.near_leg = clip.to_left ? "left" : "right";
-  Normal normal(clip.seed * 15485863 + clip.click_seed);
+  Random random(clip.seed * 15485863 + clip.click_seed);
   const double step = clip.gait.period_s / clip.time_s(kClicksPerStride);
   for (double at = 0; at < clip.frames - 0.5; at += step) {
     const TrajectoryFrame& frame = truth.frames[static_cast<std::size_t>(std::lround(at))];
@@ -102,7 +102,8 @@ Keypoints clicks(const Clip& clip) {
     for (const BodyPart part :
          {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
           BodyPart::ankle_l, BodyPart::toe_l}) {
-      const Eigen::Vector2d off(clip.click_sd_px * normal(), clip.click_sd_px * normal());
+      const Eigen::Vector2d off(clip.click_sd_px * normal(random),
+                                clip.click_sd_px * normal(random));
       Click click;
       click.p_px = (frame[part].p_px + off).unaryExpr([](double x) { return rounded(x, 2); });
       clicked[part] = click;
