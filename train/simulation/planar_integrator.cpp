@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kTrack_s = 0.01;         // longest stretch whose activations are worked out ahead
 constexpr double kImplicitDownTo = 3e-4;  // accuracy
-constexpr double kCoordinate_s = 0.03, kFiber_m = 0.01;  // what an error of 1 is measured against
+// What errors of speeds (rad/s, m/s), coordinates (rad, m) and fibres are measured against.
+constexpr double kSpeed = 2, kCoordinate = 0.03, kFiber_m = 0.003;
 
 void add(State& to, double factor, const State& what) {
   for (int i = 0; i < State::kSize; ++i) to.y[i] += factor * what.y[i];
@@ -113,11 +114,11 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
   }
 }
 
-/// The last steps share what is left rather than leave a sliver.
+/// The steps that are still needed share what is left evenly.
 double PlanarIntegrator::next_step(double left_s) const {
   const double wanted = options_.fixed_step ? options_.fixed_step_s : step_s_;
   if (wanted >= left_s * (1 - 1e-9)) return left_s;
-  return !options_.fixed_step && wanted > left_s / 2 ? left_s / 2 : wanted;
+  return options_.fixed_step ? wanted : left_s / std::ceil(left_s / wanted - 1e-9);
 }
 
 void PlanarIntegrator::adapt(double h, double wanted, double error) {
@@ -126,8 +127,8 @@ void PlanarIntegrator::adapt(double h, double wanted, double error) {
   const double factor =
       std::isfinite(error) ? 0.85 * std::pow(std::max(error, 1e-6), -1 / order) : 0.1;
   const double proposal = h * std::clamp(factor, 0.1, good ? (rejected_ ? 1 : 1.5) : 0.9);
-  // A step cut short says nothing against the longer one that was wanted.
-  step_s_ = good && h < wanted ? std::max(wanted, proposal) : proposal;
+  // A step cut short says nothing against the longer one that was wanted unless its error does.
+  step_s_ = good && h < wanted ? std::max(std::min(wanted, h * factor), proposal) : proposal;
   rejected_ = !good;
 }
 
@@ -181,7 +182,7 @@ void PlanarIntegrator::merson_step(PlanarDynamics& dynamics, const State& y, dou
 double PlanarIntegrator::error() const {
   V4 worst{}, sum{};  // the sum is not finite if any error is not
   for (int i = 0; i < State::kSize; ++i) {
-    const double unit = i >= State::kFiber ? kFiber_m : i >= State::kU ? 1 : kCoordinate_s;
+    const double unit = i >= State::kFiber ? kFiber_m : i >= State::kU ? kSpeed : kCoordinate;
     const V4 e = error_.y[i] / unit;
     worst = simd::max(worst, simd::max(e, -e));
     sum += e;

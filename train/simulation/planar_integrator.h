@@ -9,8 +9,8 @@
 
 namespace stride {
 
-/// Advances a PlanarDynamics with steps whose estimated error is kept below the accuracy: speeds in
-/// rad/s or m/s count as they are, coordinates against 0.03 s and fibres against 0.01 m of it. See
+/// Advances a PlanarDynamics with steps whose estimated error is kept below the accuracy: that of
+/// speeds against 2 rad/s or m/s, of coordinates against 0.03 rad or m, of fibres against 3 mm. See
 /// README.md for what makes the equations stiff and what is done about each.
 ///
 /// Down to an accuracy of 3e-4 the steps are those of rosenbrock.h, implicit in what is stiff;
