@@ -25,7 +25,9 @@ Mirror mirror_by_name(const std::vector<std::string>& names) {
     const auto found = std::ranges::find(names, other);
     require(found != names.end(), "{}: its mirror image '{}' is missing", name, other);
     mirror.source.push_back(static_cast<int>(found - names.begin()));
-    mirror.sign.push_back(name == "phase_sin" || name == "phase_cos" ? -1 : 1);
+    const bool negated = name == "phase_sin" || name == "phase_cos";
+    if (negated) mirror.negated.push_back(static_cast<int>(mirror.sign.size()));
+    mirror.sign.push_back(negated ? -1 : 1);
   }
   return mirror;
 }

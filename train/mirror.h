@@ -11,12 +11,15 @@ namespace stride {
 struct Mirror {
   std::vector<int> source;
   std::vector<double> sign;
+  std::vector<int> negated;  // where sign is −1
 
+  /// Of columns and vectors whose elements lie side by side; not in place.
   template <typename In, typename Out>
   void apply(const In& x, Out&& mirrored) const {
-    for (std::size_t i = 0; i < source.size(); ++i)
-      mirrored[static_cast<long>(i)] =
-          static_cast<typename std::decay_t<Out>::Scalar>(sign[i]) * x[source[i]];
+    const auto* from = x.data();
+    auto* to = mirrored.data();
+    for (std::size_t i = 0, n = source.size(); i < n; ++i) to[i] = from[source[i]];
+    for (const int i : negated) to[i] = -to[i];
   }
 };
 

@@ -31,6 +31,15 @@ template <typename Scalar>
 struct Batch {
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> states, actions, next_states;
   Eigen::Matrix<Scalar, 1, Eigen::Dynamic> rewards, discounts;
+
+  /// Which decisions they are. All are drawn before the first is read, so that the memory, which is
+  /// far larger than the caches, is fetched meanwhile.
+  struct Draw {
+    std::int64_t round = 0;
+    int environment = 0;
+    bool mirror = false;
+  };
+  std::vector<Draw> draws;
 };
 
 struct SampleOptions {
