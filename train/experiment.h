@@ -3,12 +3,9 @@
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "train/options.h"
-#include "train/plot.h"
 
 namespace stride {
 
@@ -22,23 +19,8 @@ struct ExperimentOptions {
   int jobs = 2;                     // runs side by side, each on one core
   std::filesystem::path runs;       // folder of the run folders: <arm>/<seed>
   std::filesystem::path report;     // where curves, configurations and figures are copied to
+  std::string command;              // as it was given, for the report
 };
-
-/// One arm's distances, an element a seed: means of the evaluations in the last tenth of half the
-/// budget and of the whole.
-struct ArmResult {
-  std::string label;
-  std::vector<double> half_m, full_m;
-};
-
-/// A ratio over paired seeds: exp of the mean of log ratios, with Student's 95 % interval.
-struct PairedRatio {
-  double ratio = 0, low = 0, high = 0;  // NaN where there are too few seeds, or a distance ≤ 0
-};
-PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<double>& control);
-
-/// From the curves that are there.
-std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions);
 
 /// Runs what is not done yet, continuing runs that were interrupted; then writes the report:
 /// curves, configurations, results.md and the figures. Returns false if it was stopped.

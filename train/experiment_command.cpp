@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <memory>
+#include <optional>
 
 #include "extract/error.h"
 #include "train/experiment.h"
@@ -19,6 +20,19 @@ struct Request {
   ExperimentOptions options;
 };
 
+/// The command that repeats it.
+std::string command_of(const Request& request) {
+  const ExperimentOptions& options = request.options;
+  std::string command = fmt::format("stride experiment {} --potential {}", request.name,
+                                    options.potential.filename().string());
+  if (!options.weak.empty()) command += fmt::format(" --weak {}", options.weak.filename().string());
+  command += fmt::format(" --preset {} --seeds {} --decisions {}", request.preset, options.seeds,
+                         options.train.run.decisions);
+  for (const std::string& assignment : request.assignments)
+    command += fmt::format(" --set {}", assignment);
+  return command;
+}
+
 void experiment_as_requested(Request& request) {
   require(request.name == "baseline-vs-shaping", "experiment '{}': must be baseline-vs-shaping",
           request.name);
@@ -29,6 +43,7 @@ void experiment_as_requested(Request& request) {
   options.train.check();
   if (options.runs.empty()) options.runs = std::filesystem::path("runs") / request.name;
   if (options.report.empty()) options.report = options.runs / "report";
+  options.command = command_of(request);
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   if (run_experiment(options, interrupted, stderr))

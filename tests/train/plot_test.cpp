@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 #include "train/curve.h"
-#include "train/experiment.h"
+#include "train/experiment_report.h"
 
 namespace stride {
 namespace {
@@ -67,14 +67,29 @@ TEST(Plot, ErrorsNameTheRunAndTheColumn) {
                "--against time");
 }
 
-TEST(Experiment, HalfAndFullAreTheLastTenthsOfTheBudgets) {
+TEST(Experiment, DistancesAreThoseOfTheTwentiethOfTheBudgetThatEndsThere) {
   TemporaryFolder folder;
   write_run(folder / "arm" / "1", 1);
   write_run(folder / "arm" / "2", 3);
   const auto results = results_of(arms_of({folder / "arm" / "1", folder / "arm" / "2"}), 10'000);
   ASSERT_EQ(results.size(), 1u);
-  EXPECT_EQ(results[0].half_m, (std::vector<double>{5, 15}));
-  EXPECT_EQ(results[0].full_m, (std::vector<double>{10, 30}));
+  for (std::size_t k = 0; k < kBudgetShares.size(); ++k) {
+    EXPECT_DOUBLE_EQ(results[0].distance_m[k][0], 10 * kBudgetShares[k]);
+    EXPECT_DOUBLE_EQ(results[0].distance_m[k][1], 30 * kBudgetShares[k]);
+  }
+}
+
+TEST(Experiment, TimesAreThoseOfTheFirstEvaluationThatReachedADistance) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  const auto results = results_of(arms_of({folder / "arm" / "1", folder / "arm" / "2"}), 10'000);
+  EXPECT_EQ(results[0].reached[0][0]->decisions, 5000);  // 5 m
+  EXPECT_EQ(results[0].reached[0][0]->wall_s, 300);
+  EXPECT_EQ(results[0].reached[1][1]->decisions, 4000);  // 10 m: 12 is the first
+  EXPECT_FALSE(results[0].reached[2][0]);                // 15 m: ends at 10
+  EXPECT_THAT(experiment_report(results, 10'000, "stride experiment"),
+              ::testing::HasSubstr("| arm | 4 ± 1 k; 3.5 ± 1.5 min"));
 }
 
 TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {
