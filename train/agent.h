@@ -10,15 +10,15 @@
 namespace stride {
 
 struct AgentOptions {
-  std::vector<int> actor_hidden{64, 64}, critic_hidden{64, 64};
+  std::vector<int> actor_hidden{128, 128}, critic_hidden{128, 128};
   std::string actor_activation = "elu", critic_activation = "elu";
   bool layer_norm = true;
   double gamma = 0.985;      // a decision; shaping uses the same
   double tau = 2e-3;         // how far the targets follow in one update
   double actor_rate = 3e-4;  // Adam's α
   double critic_rate = 1e-3;
-  double final_rate = 1;  // share of the rates that is left after decay_decisions
-  double decay_decisions = 1e7;
+  double final_rate = 0.2;  // share of the rates that is left after decay_decisions
+  double decay_decisions = 4e6;
   double beta2 = 0.999;
   double weight_decay = 0;         // of the critic
   double gradient_norm_limit = 0;  // of either network; 0: none

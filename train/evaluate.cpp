@@ -102,9 +102,9 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
   if (!options.rules.empty()) train_options.environment.rules = options.rules;
   train_options.check();
-  const std::optional<Potential> loaded = load_run_potential(train_options, run);
-  const Potential* potential = loaded ? &*loaded : nullptr;
-  const std::unique_ptr<Environment> made = make_runners(train_options.environment, potential)(-1);
+  const Demonstration shaped_by = load_run_demonstration(train_options, run);
+  const Potential* potential = shaped_by.potential ? &*shaped_by.potential : nullptr;
+  const std::unique_ptr<Environment> made = make_runners(train_options.environment, shaped_by)(-1);
   auto& environment = static_cast<RunnerEnvironment&>(*made);
   const Model& model = environment.engine().model();
 

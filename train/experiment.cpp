@@ -39,12 +39,10 @@ void begin(const Job& job, const ExperimentOptions& options) {
   TrainOptions train_options = options.train;
   train_options.run.seed = job.seed;
   train_options.run.threads = 1;
-  std::optional<Potential> potential;
-  if (!job.potential.empty()) {
-    potential = load_potential(job.potential);
-    train_options.shaping.source = job.potential.filename().string();
-  }
-  make_run_folder(train_options, potential ? &*potential : nullptr, job.run);
+  if (!job.potential.empty()) train_options.shaping.source = job.potential.filename().string();
+  const Demonstration demonstration =
+      load_demonstration(job.potential, {}, train_options.environment);
+  make_run_folder(train_options, demonstration, job.run);
 }
 
 struct FileCloser {
@@ -54,11 +52,10 @@ struct FileCloser {
 /// Trains to the end or until stopped. The replay memory of a finished run is removed.
 std::string work_on(const Job& job, const std::atomic<bool>& stop) {
   const TrainOptions options = load_run_options(job.run);
-  const std::optional<Potential> potential = load_run_potential(options, job.run);
   const std::unique_ptr<std::FILE, FileCloser> log(std::fopen((job.run / "log.txt").c_str(), "a"));
   const TrainSummary summary =
-      train(job.run, make_runners(options.environment, potential ? &*potential : nullptr), stop,
-            log.get());
+      train(job.run, make_runners(options.environment, load_run_demonstration(options, job.run)),
+            stop, log.get());
   if (!summary.divergence.empty()) return summary.divergence;
   if (!summary.finished) return "stopped";
   write_file_atomically(job.run / "finished", "");

@@ -14,7 +14,7 @@ namespace {
 std::atomic<bool> interrupted = false;
 
 struct Request {
-  std::string name, preset = "stride";
+  std::string name, preset = "shaping";
   std::vector<std::string> assignments;
   std::optional<std::int64_t> decisions;
   ExperimentOptions options;

@@ -13,7 +13,7 @@
 namespace stride {
 
 struct ExplorationOptions {
-  double sigma = 0.4, final_sigma = 0.2;  // of the Ornstein–Uhlenbeck noise on actions
+  double sigma = 0.4, final_sigma = 0.1;  // of the Ornstein–Uhlenbeck noise on actions
   double decay_decisions = 3e6;           // from one to the other, linearly
   double theta = 0.1;                     // its pull back to 0 a decision; 1: white
   double spread = 2;                      // environments differ in sigma by up to this factor

@@ -77,7 +77,7 @@ std::vector<Field> fields(TrainOptions& o) {
        &o.environment.difficulty, 0, 2},
       {"environment.max_obstacles", "at difficulty 1 and 2", &o.environment.max_obstacles, 0, 20},
       {"environment.accuracy", "of the integration", &o.environment.accuracy, 1e-12, 1},
-      {"environment.reference", "calibrated trajectory on which episodes may start",
+      {"environment.reference", "file in the run folder on which episodes may start; empty: none",
        &o.environment.reference},
       {"environment.reference_share", "of training episodes start on it",
        &o.environment.reference_share, 0, 1},
@@ -282,9 +282,6 @@ void TrainOptions::check() const {
   require(exploration.quiet_share + exploration.parameter_share <= 1,
           "exploration.quiet_share + exploration.parameter_share = {}: must be at most 1",
           exploration.quiet_share + exploration.parameter_share);
-  require(environment.reference_share == 0 || !environment.reference.empty(),
-          "environment.reference_share = {}: needs environment.reference, a calibrated trajectory",
-          environment.reference_share);
 }
 
 void read_toml(const fs::path& file, TrainOptions& options) {

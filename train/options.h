@@ -33,9 +33,9 @@ struct EnvironmentOptions {
   std::string model;              // .osim; empty: the model of Learning to Run
   int difficulty = 0;
   int max_obstacles = 3;
-  double accuracy = 1e-3;      // of the integration
-  std::string reference;       // calibrated trajectory to start episodes from; empty: none
-  double reference_share = 0;  // of training episodes start on it
+  double accuracy = 1e-3;        // of the integration
+  std::string reference;         // calibrated run, as it was copied into the run folder
+  double reference_share = 0.7;  // of training episodes start on it
 };
 
 struct RewardOptions {
@@ -47,7 +47,7 @@ struct RewardOptions {
 struct ShapingOptions {
   std::string potential;   // file, as it was copied into the run folder; empty: no shaping
   std::string source;      // where that file came from: the source video is looked for there
-  double scale = 0.004;    // on the file's weight; PF3 at a weight of 1 drowns the reward
+  double scale = 0.008;    // on the file's weight; PF3 at a weight of 1 drowns the reward
   double epsilon_m = 0.1;  // instead of the file's; -1: the file's
   std::string function;    // pf1, pf2, pf3; empty: the file's
   std::string index;       // time, nearest; empty: the file's

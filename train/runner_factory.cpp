@@ -7,7 +7,8 @@
 
 namespace stride {
 
-EnvironmentFactory make_runners(const EnvironmentOptions& options, const Potential* potential) {
+EnvironmentFactory make_runners(const EnvironmentOptions& options,
+                                const Demonstration& demonstration) {
   const Model model = load_osim(options.model.empty() ? default_model_file()
                                                       : std::filesystem::path(options.model));
   RunnerOptions runner;
@@ -16,11 +17,10 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options, const Potenti
   runner.difficulty = options.difficulty;
   runner.max_obstacles = options.max_obstacles;
   runner.accuracy = options.accuracy;
-  if (potential != nullptr) runner.foot = potential->foot;
-  std::optional<CalibratedTrajectory> reference;
-  if (options.reference_share > 0) reference = load_calibrated(options.reference);
+  if (demonstration.potential) runner.foot = demonstration.potential->foot;
 
-  return [model, runner, reference, share = options.reference_share](int slot) {
+  return [model, runner, reference = demonstration.reference,
+          share = options.reference_share](int slot) {
     RunnerOptions own = runner;
     if (slot >= 0 && reference) {
       own.reference = reference;

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "train/options.h"
+#include "train/demonstration.h"
 #include "train/training.h"
 
 namespace stride {
 
 /// The runner of these options. Slots of training may start on the reference motion; the one for
-/// evaluation starts as the rules say. `potential` (or null) says what a foot is. Throws Error
-/// naming the option, or why the engine refuses the model.
-EnvironmentFactory make_runners(const EnvironmentOptions& options, const Potential* potential);
+/// evaluation starts as the rules say. The potential says what a foot is. Throws Error naming the
+/// option, or why the engine refuses the model.
+EnvironmentFactory make_runners(const EnvironmentOptions& options,
+                                const Demonstration& demonstration);
 
 }  // namespace stride

@@ -319,17 +319,14 @@ std::string TrainSummary::brief_report() const {
                      distance_m, progress.best_distance_m);
 }
 
-void make_run_folder(const TrainOptions& options, const Potential* potential, const fs::path& run) {
+void make_run_folder(const TrainOptions& options, const Demonstration& demonstration,
+                     const fs::path& run) {
   options.check();
   require(!fs::exists(run / "config.toml"),
           "{}: holds a run already; continue it with --resume, or choose another folder",
           run.string());
   TrainOptions written = options;
-  written.shaping.potential.clear();
-  if (potential != nullptr) {
-    written.shaping.potential = "potential.json";
-    save(*potential, run / written.shaping.potential);
-  }
+  save(demonstration, run, written);
   write_run_options(written, run);
 }
 
@@ -350,22 +347,10 @@ TrainOptions load_run_options(const fs::path& run) {
   return options;
 }
 
-std::optional<Potential> load_run_potential(const TrainOptions& options, const fs::path& run) {
-  const ShapingOptions& shaping = options.shaping;
-  if (shaping.potential.empty()) return std::nullopt;
-  Potential potential = load_potential(run / shaping.potential);
-  potential.weight *= shaping.scale;
-  if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
-  if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
-  if (!shaping.index.empty())
-    potential.index = shaping.index == "nearest" ? PotentialIndex::nearest : PotentialIndex::time;
-  return potential;
-}
-
 TrainSummary train(const fs::path& run, const EnvironmentFactory& make_environment,
                    const std::atomic<bool>& stop, std::FILE* messages) {
   const TrainOptions options = load_run_options(run);
-  const std::optional<Potential> potential = load_run_potential(options, run);
+  const std::optional<Potential> potential = load_run_demonstration(options, run).potential;
   const FolderLock lock(run);
   const auto with = options.run.precision == "float" ? train_with<float> : train_with<double>;
   return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages);

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "shaping/potential.h"
+#include "train/demonstration.h"
 #include "train/training.h"
 
 namespace stride {
@@ -19,18 +19,15 @@ struct TrainSummary {
   std::string brief_report() const;
 };
 
-/// Writes what a run needs to begin: config.toml, and potential.json if there is one. Throws Error
-/// where `run` holds a run already.
-void make_run_folder(const TrainOptions& options, const Potential* potential,
+/// Writes what a run needs to begin: config.toml, and what there is of a demonstration. Throws
+/// Error where `run` holds a run already.
+void make_run_folder(const TrainOptions& options, const Demonstration& demonstration,
                      const std::filesystem::path& run);
 
 /// Replaces RUN/config.toml.
 void write_run_options(const TrainOptions& options, const std::filesystem::path& run);
 
-/// What a run folder says. The potential's overrides are applied.
 TrainOptions load_run_options(const std::filesystem::path& run);
-std::optional<Potential> load_run_potential(const TrainOptions& options,
-                                            const std::filesystem::path& run);
 
 /// Trains the run in that folder: from its beginning, or from its checkpoint if it has one, until
 /// its decisions are done or `stop` is set; then a checkpoint is there to continue from.

@@ -19,7 +19,7 @@ std::atomic<bool> interrupted = false;
 
 /// What the command line says.
 struct Request {
-  std::string potential, out, resume, preset, config;
+  std::string potential, reference, out, resume, preset, config;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed, decisions;
   bool baseline = false;
@@ -40,23 +40,21 @@ fs::path begin(const Request& request) {
   read_toml(preset_file(request.preset), options);
   if (!request.config.empty()) read_toml(request.config, options);
   apply_overrides(request, options);
-  std::optional<Potential> potential;
-  if (!request.potential.empty()) {
-    potential = load_potential(request.potential);
+  if (!request.potential.empty())
     options.shaping.source = fs::absolute(request.potential).lexically_normal().string();
-  }
-  if (!options.environment.reference.empty())
-    options.environment.reference = fs::absolute(options.environment.reference).string();
+  const Demonstration demonstration =
+      load_demonstration(request.potential, request.reference, options.environment);
   if (!options.environment.model.empty())
     options.environment.model = fs::absolute(options.environment.model).string();
-  make_run_folder(options, potential ? &*potential : nullptr, request.out);
+  make_run_folder(options, demonstration, request.out);
   return request.out;
 }
 
 /// A run that exists: only its length may be changed.
 fs::path resume(const Request& request) {
-  require(request.out.empty() && request.potential.empty() && !request.baseline &&
-              request.config.empty() && request.assignments.empty() && !request.seed,
+  require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
+              !request.baseline && request.config.empty() && request.assignments.empty() &&
+              !request.seed,
           "--resume {}: a run keeps its configuration; only --decisions may be given with it",
           request.resume);
   const fs::path run = request.resume;
@@ -73,9 +71,8 @@ void train_as_requested(const Request& request) {
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   const TrainOptions options = load_run_options(run);
-  const std::optional<Potential> potential = load_run_potential(options, run);
   const EnvironmentFactory runners =
-      make_runners(options.environment, potential ? &*potential : nullptr);
+      make_runners(options.environment, load_run_demonstration(options, run));
   const TrainSummary summary = train(run, runners, interrupted, stderr);
   require(summary.divergence.empty(), "{}: {}; the last good checkpoint is kept", run.string(),
           summary.divergence);
@@ -91,6 +88,9 @@ void add_train_command(CLI::App& app) {
   auto* command = app.add_subcommand("train", "Train a runner, shaped by a potential file");
   const auto request = std::make_shared<Request>();
   command->add_option("--potential", request->potential, "NAME.potential.json to shape by");
+  command->add_option("--reference", request->reference,
+                      "Run on which episodes may start; NAME.calibrated.csv beside the potential "
+                      "if not given");
   command->add_flag("--baseline", request->baseline, "Train without a potential");
   command->add_option("--out", request->out, "Folder of the run, new");
   command->add_option("--seed", request->seed, "Of every random number");

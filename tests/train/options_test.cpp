@@ -55,17 +55,17 @@ TEST(Options, ValuesOutOfRangeAreNamedWithTheRange) {
   EXPECT_ERROR(check("run.environments=0"), "run.environments = 0: must be in [1, ");
   EXPECT_ERROR(check("agent.actor_hidden=[64,0]"), "agent.actor_hidden = [64, 0]");
   EXPECT_ERROR(check("run.precision=half"), "must be one of float, double");
-  EXPECT_ERROR(check("environment.reference_share=0.5"), "needs environment.reference");
+  EXPECT_ERROR(check("environment.reference_share=1.5"), "environment.reference_share = 1.5");
   check("run.decisions=2e6");
 }
 
 TEST(Options, PresetsAreValidAndAnUnknownOneIsNamed) {
-  for (const char* preset : {"paper", "stride", "demo"}) {
+  for (const char* preset : {"paper", "shaping", "stride", "demo"}) {
     TrainOptions options;
     read_toml(preset_file(preset), options);
     options.check();
   }
-  EXPECT_ERROR(preset_file("fast"), "preset 'fast': must be one of demo, paper, stride");
+  EXPECT_ERROR(preset_file("fast"), "preset 'fast': must be one of demo, paper, shaping, stride");
 }
 
 }  // namespace

@@ -65,8 +65,9 @@ Potential some_potential() {
   return potential;
 }
 
-std::string trained(const TrainOptions& options, const Potential* potential, const fs::path& run) {
-  make_run_folder(options, potential, run);
+std::string trained(const TrainOptions& options, const Demonstration& demonstration,
+                    const fs::path& run) {
+  make_run_folder(options, demonstration, run);
   const std::atomic<bool> stop = false;
   train(run, point_mass, stop, nullptr);
   return read_file(run / "curve.csv");
@@ -78,7 +79,7 @@ TEST(Train, SolvesAPointMassInSeconds) {
   options.run.decisions = 40000;
   options.run.evaluation_episodes = 10;
   options.replay.capacity = 40000;
-  trained(options, nullptr, folder / "run");
+  trained(options, {}, folder / "run");
   const Table curve = load_table(folder / "run" / "curve.csv", "curve", 1);
   const auto distance = curve.column("evaluation_distance_m");
   EXPECT_LT(curve.rows.front()[distance], -0.2) << "it can do it untrained";
@@ -90,11 +91,12 @@ TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
   TemporaryFolder folder;
   const Potential potential = some_potential();
   TrainOptions options = small_run();
-  const std::string curve = trained(options, &potential, folder / "a");
+  const std::string curve =
+      trained(options, {.potential = potential, .reference = {}}, folder / "a");
   options.run.threads = 3;
-  EXPECT_EQ(trained(options, &potential, folder / "b"), curve);
+  EXPECT_EQ(trained(options, {.potential = potential, .reference = {}}, folder / "b"), curve);
   options.run.seed = 2;
-  EXPECT_NE(trained(options, &potential, folder / "c"), curve);
+  EXPECT_NE(trained(options, {.potential = potential, .reference = {}}, folder / "c"), curve);
 }
 
 /// Runs in a process of its own that is killed after a while. Returns whether it was still running.
@@ -118,8 +120,9 @@ TEST(Train, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TrainOptions options = small_run();
   options.run.decisions = 15000;
   options.run.checkpoint_s = 0.01;
-  const std::string uninterrupted = trained(options, &potential, folder / "a");
-  make_run_folder(options, &potential, folder / "b");
+  const std::string uninterrupted =
+      trained(options, {.potential = potential, .reference = {}}, folder / "a");
+  make_run_folder(options, {.potential = potential, .reference = {}}, folder / "b");
   Random random(17);
   int kills = 0;
   for (int i = 0; i < 12; ++i)
@@ -136,9 +139,9 @@ TEST(Train, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
 TEST(Train, ContinuedWithMoreDecisionsItGivesTheCurveOfALongerRun) {
   TemporaryFolder folder;
   TrainOptions options = small_run();
-  const std::string longer = trained(options, nullptr, folder / "a");
+  const std::string longer = trained(options, {}, folder / "a");
   options.run.decisions = 1700;
-  trained(options, nullptr, folder / "b");
+  trained(options, {}, folder / "b");
   options.run.decisions = 3000;
   write_file_atomically(folder / "b" / "config.toml", to_toml(options, ""));
   const std::atomic<bool> stop = false;
@@ -149,8 +152,8 @@ TEST(Train, ContinuedWithMoreDecisionsItGivesTheCurveOfALongerRun) {
 TEST(Train, StoppedItKeepsACheckpointAndContinues) {
   TemporaryFolder folder;
   const TrainOptions options = small_run();
-  const std::string uninterrupted = trained(options, nullptr, folder / "a");
-  make_run_folder(options, nullptr, folder / "b");
+  const std::string uninterrupted = trained(options, {}, folder / "a");
+  make_run_folder(options, {}, folder / "b");
   std::atomic<bool> stop = true;
   EXPECT_FALSE(train(folder / "b", point_mass, stop, nullptr).finished);
   EXPECT_TRUE(fs::exists(checkpoint_file(folder / "b")));
@@ -166,7 +169,7 @@ TEST(Train, DivergenceIsNamedAndTheLastCheckpointStays) {
   options.reward.scale = 1e9;
   options.agent.critic_rate = 1;
   options.agent.layer_norm = false;
-  make_run_folder(options, nullptr, folder / "run");
+  make_run_folder(options, {}, folder / "run");
   const std::atomic<bool> stop = false;
   const TrainSummary summary = train(folder / "run", point_mass, stop, nullptr);
   EXPECT_THAT(summary.divergence, ::testing::HasSubstr("learning diverged at update"));
@@ -178,7 +181,7 @@ TEST(Train, ReplayOnDiskDoesNotGrowBeyondItsCapacity) {
   TrainOptions options = small_run();
   options.run.checkpoint_s = 0.01;
   options.replay.capacity = 400;
-  trained(options, nullptr, folder / "run");
+  trained(options, {}, folder / "run");
   std::int64_t rounds = 0;
   for (const auto& entry : fs::directory_iterator(folder / "run" / "replay")) {
     long long from = 0, to = 0;
@@ -191,7 +194,7 @@ TEST(Train, ReplayOnDiskDoesNotGrowBeyondItsCapacity) {
 
 TEST(Train, DamagedCheckpointsAreRefusedWithTheirName) {
   TemporaryFolder folder;
-  trained(small_run(), nullptr, folder / "run");
+  trained(small_run(), {}, folder / "run");
   const fs::path file = checkpoint_file(folder / "run");
   const std::string content = read_file(file);
   const std::atomic<bool> stop = false;
@@ -207,8 +210,8 @@ TEST(Train, DamagedCheckpointsAreRefusedWithTheirName) {
 
 TEST(Train, AFolderThatHoldsARunIsNotOverwritten) {
   TemporaryFolder folder;
-  make_run_folder(small_run(), nullptr, folder / "run");
-  EXPECT_ERROR(make_run_folder(small_run(), nullptr, folder / "run"), "--resume");
+  make_run_folder(small_run(), {}, folder / "run");
+  EXPECT_ERROR(make_run_folder(small_run(), {}, folder / "run"), "--resume");
 }
 
 }  // namespace
