@@ -25,6 +25,7 @@ PlanarDynamics::PlanarDynamics(PlanarModel model, const EngineOptions& options)
       drop_contacts_(options.drop_contacts),
       nominal_obstacles_(options.nominal_obstacles) {
   for (int g = 0; g < kGroups; ++g) max_force_N_[g] = model_.muscles[g].max_force;
+  choose_paths();
 }
 
 void PlanarDynamics::set_strength(int i, double factor) {
@@ -52,6 +53,28 @@ PlanarDynamics::Modes PlanarDynamics::modes_at(const State& state) const {
   return modes;
 }
 
+void PlanarDynamics::set_modes(const Modes& modes) {
+  if (modes == modes_) return;
+  modes_ = modes;
+  choose_paths();
+}
+
+void PlanarDynamics::choose_paths() {
+  for (int m = 0; m < PlanarModel::kMusclesOfLeg; ++m) {
+    for (int leg = 0; leg < kLegs; ++leg) {
+      const PlanarModel::Path& from = model_.paths[m].variants[modes_[m][leg]][leg];
+      paths_[m].constant_m[leg] = from.constant_m;
+      for (std::size_t n = 0; n < from.pieces.size(); ++n) {
+        const PlanarModel::Piece& piece = from.pieces[n];
+        Piece& to = paths_[m].pieces[n];
+        to.inner[leg] = piece.inner, to.outer[leg] = piece.outer;
+        to.dz_m[leg] = piece.dz_m, to.weight[leg] = piece.weight, to.moves[leg] = piece.moves;
+        for (int j = 0; j < PlanarModel::kJoints; ++j) to.crosses[j][leg] = piece.crosses[j];
+      }
+    }
+  }
+}
+
 /// Lengths and moment arms of all muscles.
 void PlanarDynamics::measure_paths(const PlanarKinematics& k, Arms& arms,
                                    std::array<V2, 10>& lengths) const {
@@ -65,28 +88,25 @@ void PlanarDynamics::measure_paths(const PlanarKinematics& k, Arms& arms,
   }
   for (int m = 0; m < PlanarModel::kMusclesOfLeg; ++m) {
     const PlanarModel::MusclePath& muscle = model_.paths[m];
-    const PlanarModel::Path& first = muscle.variants[modes_[m][0]][0];
-    const PlanarModel::Path& second = muscle.variants[modes_[m][1]][1];
-    V2 length{first.constant_m, second.constant_m};
+    V2 length = paths_[m].constant_m;
     std::array<V2, 3>& arm = arms[m];
     arm = {};
     for (int n = 0; n < muscle.pieces; ++n) {
-      const PlanarModel::Piece &a = first.pieces[n], &b = second.pieces[n];
-      const Pair outer{V2{at[a.outer].x[0], at[b.outer].x[1]},
-                       V2{at[a.outer].y[0], at[b.outer].y[1]}};
-      const Pair inner{V2{at[a.inner].x[0], at[b.inner].x[1]},
-                       V2{at[a.inner].y[0], at[b.inner].y[1]}};
-      const Pair d = outer - inner;
-      const V2 dz{a.dz_m, b.dz_m}, weight{a.weight, b.weight};
+      const Piece& p = paths_[m].pieces[n];
+      const auto end = [&](const std::array<int, kLegs>& i) {
+        return Pair{V2{at[i[0]].x[0], at[i[1]].x[1]}, V2{at[i[0]].y[0], at[i[1]].y[1]}};
+      };
+      const Pair outer = end(p.outer), d = outer - end(p.inner);
+      const V2 dz = p.dz_m, weight = p.weight;
       const V2 piece = simd::sqrt(dot(d, d) + dz * dz);
       const Pair along = weight / piece * d;
       length += weight * piece;
       for (int j = muscle.first_joint; j <= muscle.last_joint; ++j) {
-        arm[j] += V2{a.crosses[j], b.crosses[j]} * cross(outer - joint[j], along);
+        arm[j] += p.crosses[j] * cross(outer - joint[j], along);
       }
       if (muscle.moving >= 0) {
-        const PlanarModel::Point& p = model_.points[muscle.moving];
-        arm[1] += V2{a.moves, b.moves} * dot(k.turn(p.segment, k.moving_slope[p.function]), along);
+        const PlanarModel::Point& point = model_.points[muscle.moving];
+        arm[1] += p.moves * dot(k.turn(point.segment, k.moving_slope[point.function]), along);
       }
     }
     lengths[m] = length;
@@ -101,8 +121,7 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation,
   std::array<V2, 10> lengths;
   measure_paths(k, arms, lengths);
   for (int g = 0; g < kGroups; ++g) {
-    const V2 a = lengths[2 * g], b = lengths[2 * g + 1];
-    const V4 path = forces_.path_m[g] = V4{a[0], a[1], b[0], b[1]};
+    const V4 path = forces_.path_m[g] = simd::join(lengths[2 * g], lengths[2 * g + 1]);
     const PlanarModel::Muscles& muscles = model_.muscles[g];
     const V4 fiber = state.y[State::kFiber + g];
     MuscleGroup r;
@@ -119,7 +138,7 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation,
     const V4 tension = forces_.tendon_N[g] = r.tendon_force_n * max_force_N_[g];
     for (int half = 0; half < 2 && 2 * g + half < PlanarModel::kMusclesOfLeg; ++half) {
       const int m = 2 * g + half;
-      const V2 pull{tension[2 * half], tension[2 * half + 1]};
+      const V2 pull = half == 0 ? simd::low(tension) : simd::high(tension);
       for (int j = 0; j < 3; ++j) torque[j] -= pull * arms[m][j];
     }
   }
@@ -146,16 +165,18 @@ void PlanarDynamics::evaluate(const State& state, const Fibers& activation, Stat
   if (linear) linear->stiffness = linear->damping = {};
   PlanarKinematics k;
   place(model_, state, interval_, k);
+  // First, so that the chain of divisions runs beside the muscles.
+  PlanarEquations equations;
+  assemble(model_, k, equations);
+  if (linear) linear->mass = equations;
+  eliminate(equations);
+
   std::array<V2, 3> torque{};
   pull_muscles(state, activation, k, rate, torque, linear);
   push_limits(state, torque, linear);
   FootForces feet = touch_ground(model_, state, k, drop_contacts_, linear);
   for (int leg = 0; leg < kLegs; ++leg) forces_.ground_N[leg] = {feet.x[leg], feet.y[leg]};
   if (!obstacles_.empty()) touch_obstacles(model_, obstacles_, state, k, feet, linear);
-
-  PlanarEquations equations;
-  assemble(model_, k, equations);
-  if (linear) linear->mass = equations;
   load(model_, k, torque, feet, equations);
   solve(equations, rate);
   for (int i = 0; i < State::kU; ++i) rate.y[i] = state.y[State::kU + i];

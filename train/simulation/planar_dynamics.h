@@ -39,7 +39,7 @@ class PlanarDynamics {
   using Modes =
       std::array<std::array<unsigned char, PlanarModel::kLegs>, PlanarModel::kMusclesOfLeg>;
   Modes modes_at(const State& state) const;
-  void set_modes(const Modes& modes) { modes_ = modes; }
+  void set_modes(const Modes& modes);
   const Modes& modes() const { return modes_; }
 
   /// Sets `linear`, if given, to the stiff part of the equations at this state.
@@ -59,6 +59,7 @@ class PlanarDynamics {
   std::array<double, 81> mass_matrix(const State& state);
 
  private:
+  void choose_paths();
   /// Moment arms about hip, knee, ankle: how much a path lengthens with the angle.
   using Arms = std::array<std::array<simd::V2, 3>, PlanarModel::kMusclesOfLeg>;
   void measure_paths(const PlanarKinematics& k, Arms& arms,
@@ -67,11 +68,22 @@ class PlanarDynamics {
                     State& rate, std::array<simd::V2, 3>& torque, PlanarLinear* linear);
   void push_limits(const State& state, std::array<simd::V2, 3>& torque, PlanarLinear* linear) const;
 
+  /// PlanarModel::Path of both legs, in the lanes, as the modes have it.
+  struct Piece {
+    std::array<int, PlanarModel::kLegs> inner{}, outer{};
+    simd::V2 dz_m{}, weight{}, crosses[PlanarModel::kJoints]{}, moves{};
+  };
+  struct Path {
+    simd::V2 constant_m{};
+    std::array<Piece, 2> pieces;
+  };
+
   PlanarModel model_;
   bool drop_contacts_, nominal_obstacles_;
   Fibers max_force_N_;
   std::vector<PlanarObstacle> obstacles_;
   Modes modes_{};
+  std::array<Path, PlanarModel::kMusclesOfLeg> paths_;
   KneeIntervals interval_{};
   Forces forces_;
 };

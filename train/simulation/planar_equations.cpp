@@ -11,7 +11,7 @@ using simd::V4;
 void assemble(const PlanarModel& model, const PlanarKinematics& k, PlanarEquations& legs) {
   const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};  // ankle, knee, hip
   V2 mass{}, second{};  // of all that a joint carries, about the pelvis
-  Pair first;
+  Pair first{};
   for (int i = 0; i < 3; ++i) {
     const int segment = 3 - i;
     const V2 m = model.mass_kg[segment];
@@ -72,23 +72,19 @@ void load(const PlanarModel& model, const PlanarKinematics& k, const std::array<
   legs.base_right[2] = -fy;
 }
 
-void solve(PlanarEquations& legs, PlanarState& rate) {
-  // Eliminate ankle, knee and hip of both legs at once.
-  V2 inverse[3];
+void eliminate(PlanarEquations& legs) {
   for (int p = 0; p < 3; ++p) {
-    inverse[p] = 1 / legs.matrix[p][p];
+    legs.inverse[p] = 1 / legs.matrix[p][p];
     for (int i = p + 1; i < 6; ++i) {
-      const V2 factor = legs.matrix[p][i] * inverse[p];
-      for (int j = i; j < 6; ++j) legs.matrix[i][j] -= factor * legs.matrix[p][j];
-      legs.right[i] -= factor * legs.right[p];
+      legs.factor[p][i] = legs.matrix[p][i] * legs.inverse[p];
+      for (int j = i; j < 6; ++j) legs.matrix[i][j] -= legs.factor[p][i] * legs.matrix[p][j];
     }
   }
   // The base: its own body and what both legs leave.
   const double m = legs.base_mass_kg, cx = legs.base_x_m, cy = legs.base_y_m;
-  double a[3][3], b[3];
+  double(&a)[3][3] = legs.base_matrix;
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) a[i][j] = sum(legs.matrix[3 + i][3 + j]);
-    b[i] = legs.base_right[i] + sum(legs.right[3 + i]);
   }
   a[0][0] += legs.base_inertia_kg_m2 + m * (cx * cx + cy * cy);
   a[0][1] -= m * cy;
@@ -97,11 +93,22 @@ void solve(PlanarEquations& legs, PlanarState& rate) {
   a[2][2] += m;
   for (int p = 0; p < 2; ++p) {
     for (int i = p + 1; i < 3; ++i) {
-      const double factor = a[p][i] / a[p][p];
-      for (int j = i; j < 3; ++j) a[i][j] -= factor * a[p][j];
-      b[i] -= factor * b[p];
+      legs.base_factor[p][i] = a[p][i] / a[p][p];
+      for (int j = i; j < 3; ++j) a[i][j] -= legs.base_factor[p][i] * a[p][j];
     }
   }
+}
+
+void solve(PlanarEquations& legs, PlanarState& rate) {
+  for (int p = 0; p < 3; ++p) {
+    for (int i = p + 1; i < 6; ++i) legs.right[i] -= legs.factor[p][i] * legs.right[p];
+  }
+  double b[3];
+  for (int i = 0; i < 3; ++i) b[i] = legs.base_right[i] + sum(legs.right[3 + i]);
+  for (int p = 0; p < 2; ++p) {
+    for (int i = p + 1; i < 3; ++i) b[i] -= legs.base_factor[p][i] * b[p];
+  }
+  const double(&a)[3][3] = legs.base_matrix;
   double base[3];
   for (int p = 2; p >= 0; --p) {
     double right = b[p];
@@ -113,9 +120,9 @@ void solve(PlanarEquations& legs, PlanarState& rate) {
     V2 right = legs.right[p];
     for (int j = p + 1; j < 3; ++j) right -= legs.matrix[p][j] * leg[j];
     for (int j = 0; j < 3; ++j) right -= legs.matrix[p][3 + j] * both(base[j]);
-    leg[p] = right * inverse[p];
+    leg[p] = right * legs.inverse[p];
   }
-  rate.y[PlanarState::kU] = V4{leg[2][0], leg[2][1], leg[1][0], leg[1][1]};
+  rate.y[PlanarState::kU] = simd::join(leg[2], leg[1]);
   rate.y[PlanarState::kU + 1] = V4{leg[0][0], leg[0][1], base[0], base[1]};
   rate.y[PlanarState::kU + 2] = V4{base[2], 0, 0, 0};
 }

@@ -21,6 +21,19 @@ void add(State& to, double factor, const State& what) {
   for (int i = 0; i < State::kSize; ++i) to.y[i] += factor * what.y[i];
 }
 
+/// to += Σ factor[j] / divisor · what[j] over the first n
+template <int n>
+void add(State& to, const Rosenbrock::Row& factor, double divisor,
+         const std::array<State, 4>& what) {
+  double f[n];
+  for (int j = 0; j < n; ++j) f[j] = factor[j] / divisor;
+  for (int i = 0; i < State::kSize; ++i) {
+    V4 sum = to.y[i];
+    for (int j = 0; j < n; ++j) sum += f[j] * what[j].y[i];
+    to.y[i] = sum;
+  }
+}
+
 void fail(AdvanceReport& report, const char* why) {
   report.ok = false;
   report.failure = why;
@@ -141,22 +154,25 @@ void PlanarIntegrator::evaluate(PlanarDynamics& dynamics, const State& y, double
 
 void PlanarIntegrator::rosenbrock_step(PlanarDynamics& dynamics, const State& y, double time_s,
                                        double h) {
-  constexpr const Rosenbrock& r = kRosenbrock;
   solver_.factor(linear_, h * Rosenbrock::kGamma);
   solver_.solve(linear_, first_, stage_[0]);
-  for (int i = 1; i < Rosenbrock::kStages; ++i) {
-    State at = y, rate;
-    for (int j = 0; j < i; ++j) add(at, r.at[i][j], stage_[j]);
-    evaluate(dynamics, at, time_s + r.time[i] * h, rate);
-    for (int j = 0; j < i; ++j) add(rate, r.carry[i][j] / h, stage_[j]);
-    solver_.solve(linear_, rate, stage_[i]);
-  }
+  rosenbrock_stage<1>(dynamics, y, time_s, h);
+  rosenbrock_stage<2>(dynamics, y, time_s, h);
+  rosenbrock_stage<3>(dynamics, y, time_s, h);
   next_ = y;
+  add<4>(next_, kRosenbrock.weight, 1, stage_);
   error_ = {};
-  for (int i = 0; i < Rosenbrock::kStages; ++i) {
-    add(next_, r.weight[i], stage_[i]);
-    add(error_, r.error[i], stage_[i]);
-  }
+  add<4>(error_, kRosenbrock.error, 1, stage_);
+}
+
+template <int i>
+void PlanarIntegrator::rosenbrock_stage(PlanarDynamics& dynamics, const State& y, double time_s,
+                                        double h) {
+  State at = y;
+  add<i>(at, kRosenbrock.at[i], 1, stage_);
+  evaluate(dynamics, at, time_s + kRosenbrock.time[i] * h, rate_);
+  add<i>(rate_, kRosenbrock.carry[i], h, stage_);
+  solver_.solve(linear_, rate_, stage_[i]);
 }
 
 void PlanarIntegrator::merson_step(PlanarDynamics& dynamics, const State& y, double time_s,

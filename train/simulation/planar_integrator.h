@@ -34,6 +34,8 @@ class PlanarIntegrator {
   double next_step(double left_s) const;
   void adapt(double h, double wanted, double error);
   void rosenbrock_step(PlanarDynamics& dynamics, const State& y, double time_s, double h);
+  template <int i>
+  void rosenbrock_stage(PlanarDynamics& dynamics, const State& y, double time_s, double h);
   void merson_step(PlanarDynamics& dynamics, const State& y, double time_s, double h);
   void evaluate(PlanarDynamics& dynamics, const State& y, double time_s, State& rate,
                 PlanarLinear* linear = nullptr);
@@ -51,6 +53,7 @@ class PlanarIntegrator {
   PlanarLinear linear_;
   PlanarSolver solver_;
   State first_;  // the rate at the beginning of the step
+  State rate_;   // of a stage
   State next_, error_;
   std::array<State, 4> stage_;
 };

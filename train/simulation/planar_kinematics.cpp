@@ -15,19 +15,21 @@ void place(const PlanarModel& m, const PlanarState& state, KneeIntervals& interv
   const V2 tilt = both(state.q(6));
   const V2 thigh = tilt + state.joint_q(0), shank = thigh + knee, foot = shank + state.joint_q(2);
   V4 s, c;
-  simd::sin_cos(V4{tilt[0], tilt[1], thigh[0], thigh[1]}, s, c);
-  k.sin[0] = V2{s[0], s[1]}, k.cos[0] = V2{c[0], c[1]};
-  k.sin[1] = V2{s[2], s[3]}, k.cos[1] = V2{c[2], c[3]};
-  simd::sin_cos(V4{shank[0], shank[1], foot[0], foot[1]}, s, c);
-  k.sin[2] = V2{s[0], s[1]}, k.cos[2] = V2{c[0], c[1]};
-  k.sin[3] = V2{s[2], s[3]}, k.cos[3] = V2{c[2], c[3]};
+  simd::sin_cos(simd::join(tilt, thigh), s, c);
+  k.sin[0] = simd::low(s), k.cos[0] = simd::low(c);
+  k.sin[1] = simd::high(s), k.cos[1] = simd::high(c);
+  simd::sin_cos(simd::join(shank, foot), s, c);
+  k.sin[2] = simd::low(s), k.cos[2] = simd::low(c);
+  k.sin[3] = simd::high(s), k.cos[3] = simd::high(c);
   k.knee_speed = state.joint_u(1);
   k.omega[0] = both(state.u(6));
   k.omega[1] = k.omega[0] + state.joint_u(0);
   k.omega[2] = k.omega[1] + k.knee_speed;
   k.omega[3] = k.omega[2] + state.joint_u(2);
 
-  Pair hinge, hinge_slope, hinge_bend;
+  // The functions of the knee angle: a leg's in the lanes, then both legs' of each.
+  V4 moving[PlanarModel::kLegs][2], value[PlanarModel::kLegs][2], slope[PlanarModel::kLegs][2];
+  V4 bend[PlanarModel::kLegs];
   for (int leg = 0; leg < PlanarModel::kLegs; ++leg) {
     const PlanarModel::KneeTable& table = m.knee[leg];
     const auto interval = [&](double angle) {
@@ -37,36 +39,36 @@ void place(const PlanarModel& m, const PlanarState& state, KneeIntervals& interv
       while (i > 0 && angle < table.knots[i - 1]) --i;
       return i;
     };
+    const auto values = [](const PlanarModel::KneeTable::Cubics& f, V4 h, V4(&at)[2]) {
+      for (int n = 0; n < 2; ++n) at[n] = f.a[n] + h * (f.b[n] + h * (f.c[n] + h * f.d[n]));
+    };
     const double clamped = std::clamp(knee[leg], m.knee_range_min[leg], m.knee_range_max[leg]);
     if (clamped != knee[leg]) {
       const PlanarModel::KneeTable::Cubics& f = table.cubics[interval(clamped)];
-      const V4 h = simd::all(clamped - f.origin);
-      for (int half = 0; half < 2; ++half) {
-        const V4 value = f.a[half] + h * (f.b[half] + h * (f.c[half] + h * f.d[half]));
-        for (int n = 0; n < 4; n += 2) {
-          k.moving[4 * half + n].x[leg] = value[n], k.moving[4 * half + n].y[leg] = value[n + 1];
-        }
-      }
+      values(f, simd::all(clamped - f.origin), moving[leg]);
     }
     const PlanarModel::KneeTable::Cubics& f = table.cubics[interval(knee[leg])];
     const V4 h = simd::all(knee[leg] - f.origin);
-    for (int half = 0; half < 2; ++half) {
-      const V4 value = f.a[half] + h * (f.b[half] + h * (f.c[half] + h * f.d[half]));
-      const V4 slope = f.b[half] + h * (2 * f.c[half] + 3 * h * f.d[half]);
-      for (int n = 0; n < 4; n += 2) {
-        const int i = 4 * half + n;
-        if (clamped == knee[leg]) k.moving[i].x[leg] = value[n], k.moving[i].y[leg] = value[n + 1];
-        k.moving_slope[i].x[leg] = slope[n], k.moving_slope[i].y[leg] = slope[n + 1];
-      }
-      if (half > 0) continue;
-      const V4 bend = 2 * f.c[0] + 6 * h * f.d[0];
-      hinge.x[leg] = value[0], hinge.y[leg] = value[1];
-      hinge_slope.x[leg] = slope[0], hinge_slope.y[leg] = slope[1];
-      hinge_bend.x[leg] = bend[0], hinge_bend.y[leg] = bend[1];
-    }
+    values(f, h, value[leg]);
+    for (int n = 0; n < 2; ++n) slope[leg][n] = f.b[n] + h * (2 * f.c[n] + 3 * h * f.d[n]);
+    bend[leg] = 2 * f.c[0] + 6 * h * f.d[0];
+    if (clamped == knee[leg]) std::copy(value[leg], value[leg] + 2, moving[leg]);
+  }
+  const auto legs = [](V4 first, V4 second, Pair& even, Pair& odd) {
+    const V4 x = __builtin_shufflevector(first, second, 0, 4, 2, 6);
+    const V4 y = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+    even = {simd::low(x), simd::low(y)}, odd = {simd::high(x), simd::high(y)};
+  };
+  Pair hinge, hinge_slope, hinge_bend, unused;
+  legs(value[0][0], value[1][0], hinge, unused);
+  legs(slope[0][0], slope[1][0], hinge_slope, unused);
+  legs(bend[0], bend[1], hinge_bend, unused);
+  for (int n = 0; n < 2; ++n) {
+    legs(moving[0][n], moving[1][n], k.moving[4 * n], k.moving[4 * n + 2]);
+    legs(slope[0][n], slope[1][n], k.moving_slope[4 * n], k.moving_slope[4 * n + 2]);
   }
 
-  k.origin[0] = {};
+  k.origin[0] = Pair{};
   k.origin[1] = k.turn(0, {m.hip_x_m, m.hip_y_m});
   const Pair thigh_to_knee = k.turn(1, hinge);
   k.origin[2] = k.origin[1] + thigh_to_knee;

@@ -23,7 +23,7 @@ Rows rows_of(const PlanarState& y, int first) {
 }
 
 void set_rows(PlanarState& y, int first, const Rows& r) {
-  y.y[first] = V4{r.leg[2][0], r.leg[2][1], r.leg[1][0], r.leg[1][1]};
+  y.y[first] = simd::join(r.leg[2], r.leg[1]);
   y.y[first + 1] = V4{r.leg[0][0], r.leg[0][1], r.base[0], r.base[1]};
   y.y[first + 2] = V4{r.base[2], 0, 0, 0};
 }
@@ -153,16 +153,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   }
   set_rows(result, 0, q);
   set_rows(result, State::kU, u);
-  alignas(32) double stretch[4 * PlanarModel::kMuscleGroups];
+  V2 stretch[PlanarModel::kMusclesOfLeg + 1];
   for (int n = 0; n < PlanarModel::kMusclesOfLeg; ++n) {
-    const V2 d =
+    stretch[n] =
         linear.arm[n][0] * q.leg[2] + linear.arm[n][1] * q.leg[1] + linear.arm[n][2] * q.leg[0];
-    std::memcpy(&stretch[2 * n], &d, sizeof d);
   }
-  stretch[18] = stretch[16], stretch[19] = stretch[17];
+  stretch[9] = stretch[8];
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
-    V4 d;
-    std::memcpy(&d, &stretch[4 * g], sizeof d);
+    const V4 d = simd::join(stretch[2 * g], stretch[2 * g + 1]);
     result.y[State::kFiber + g] =
         delay_[g] * (right.y[State::kFiber + g] + linear.stretch_1_s[g] * d);
   }

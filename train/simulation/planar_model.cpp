@@ -270,7 +270,8 @@ class Builder {
     to.linear_stiffness[i] = m.linear_stiffness;
     to.af_inverse[i] = 1 / m.af;
     to.flen[i] = m.flen;
-    to.linear_from[i] = m.linear_from;
+    to.straight_from[i] = m.linear_from * m.flen;
+    to.lengthening[i] = (2 + 2 * to.af_inverse[i]) / (1 - m.flen);
   }
 
   const Model& model_;

@@ -91,7 +91,9 @@ struct PlanarModel {
     simd::V4 max_force, optimal_inverse, slack_inverse, max_speed, width2, minimum_length;
     simd::V4 cos_max_pennation, minimum_activation, tau_activation_inverse;
     simd::V4 tau_deactivation_inverse, active_shape_inverse, passive_rate, passive_scale;
-    simd::V4 toe_strain, toe_rate, toe_scale, linear_stiffness, af_inverse, flen, linear_from;
+    simd::V4 toe_strain, toe_rate, toe_scale, linear_stiffness, af_inverse, flen;
+    simd::V4 straight_from;  // linear_from · flen
+    simd::V4 lengthening;    // (2 + 2 / af) / (1 - flen)
   };
   std::array<Muscles, kMuscleGroups> muscles;
 

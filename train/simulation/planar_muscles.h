@@ -49,12 +49,11 @@ template <bool with_slopes>
 
   const V4 force = fse * cos_inverse - fpe;
   const V4 isometric = a * fal;
-  const V4 inside = simd::min(simd::max(force, zero), m.linear_from * m.flen * isometric);
+  const V4 inside = simd::min(simd::max(force, zero), m.straight_from * isometric);
   const auto shortens = inside <= isometric;
-  const V4 db_lengthens = (2 + 2 * m.af_inverse) / (1 - m.flen);
-  const V4 db = shortens ? m.af_inverse : db_lengthens;
+  const V4 db = shortens ? m.af_inverse : m.lengthening;
   const V4 b =
-      shortens ? isometric + inside * m.af_inverse : -db_lengthens * (isometric * m.flen - inside);
+      shortens ? isometric + inside * m.af_inverse : -m.lengthening * (isometric * m.flen - inside);
   const V4 b_inverse = 1 / b;
   const V4 share = (inside - isometric) * b_inverse;
   const V4 scale = (0.25 + 0.75 * a) * m.max_speed;

@@ -4,9 +4,9 @@
 
 namespace stride::simd {
 
-/// A vector of the sagittal plane for each leg.
+/// A vector of the sagittal plane for each leg; not zero by itself, for arrays of it are scratch.
 struct Pair {
-  V2 x{}, y{};
+  V2 x, y;
 };
 inline Pair operator+(Pair a, Pair b) { return {a.x + b.x, a.y + b.y}; }
 inline Pair operator-(Pair a, Pair b) { return {a.x - b.x, a.y - b.y}; }

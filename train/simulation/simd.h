@@ -25,14 +25,18 @@ inline V4 sqrt(V4 x) {
 #endif
 }
 
-template <typename V>
-V max(V a, V b) {
-  return a > b ? a : b;
-}
-template <typename V>
-V min(V a, V b) {
-  return a < b ? a : b;
-}
+#ifdef __AVX__  // spelled out, for g++ takes four instructions where a bound is constant
+inline V4 max(V4 a, V4 b) { return _mm256_max_pd(a, b); }
+inline V4 min(V4 a, V4 b) { return _mm256_min_pd(a, b); }
+#else
+inline V4 max(V4 a, V4 b) { return a > b ? a : b; }
+inline V4 min(V4 a, V4 b) { return a < b ? a : b; }
+#endif
+
+/// One vector of four from two of two.
+inline V4 join(V2 a, V2 b) { return V4{a[0], a[1], b[0], b[1]}; }
+inline V2 low(V4 v) { return V2{v[0], v[1]}; }
+inline V2 high(V4 v) { return V2{v[2], v[3]}; }
 
 inline bool any(I4 mask) {
 #ifdef __AVX__
