@@ -37,7 +37,7 @@ struct OnnxModel {
   std::int64_t opset = 9;  // OpenCV 4.6 reads opsets up to 13
   std::vector<Value> inputs, outputs;
   std::vector<OnnxTensor> constants = {};
-  std::vector<OnnxNode> nodes;
+  std::vector<OnnxNode> nodes = {};
   std::map<std::string, std::string> metadata = {};
   std::string description = {};
 };

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <string>
@@ -15,7 +15,8 @@ namespace stride {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kSegmentRecords = 200'000;  // at most, of one replay segment
+constexpr Eigen::Index kLongestEpisode = 1'000'000;  // decisions
+constexpr std::int64_t kSegmentRecords = 200'000;    // at most, of one replay segment
 
 template <typename Scalar>
 using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
@@ -30,14 +31,22 @@ Random random_from(const std::string& text, const std::string& file) {
   Random random;
   std::istringstream in(text);
   in >> random;
-  require(!in.fail(), "{}: the state of a random number generator cannot be read", file);
+  // The last of its numbers says which of the others comes next; the library takes any.
+  std::istringstream last(text.substr(text.find_last_of(' ') + 1));
+  std::size_t next = 0;
+  require(!in.fail() && last >> next && next <= Random::state_size,
+          "{}: the state of a random number generator cannot be read", file);
   return random;
 }
 
-/// Reads a vector whose length only the file knows.
+/// Reads a vector that is empty or of a multiple of `unit` elements, at most `most` times as many.
 template <typename Scalar>
-Vector<Scalar> vector_from(const Tensors& tensors, const std::string& name) {
+Vector<Scalar> vector_from(const Tensors& tensors, const std::string& name, Eigen::Index unit,
+                           Eigen::Index most = 1) {
   Vector<Scalar> value(tensors.size(name));
+  require(value.size() % unit == 0 && value.size() <= most * unit,
+          "{}: tensor '{}' has {} elements, a multiple of {} is needed: of another model",
+          tensors.file, name, value.size(), unit);
   tensors.get(name, value);
   return value;
 }
@@ -52,10 +61,13 @@ void put(Tensors& tensors, const std::string& name, const Adam<Scalar>& adam) {
 }
 
 template <typename Scalar>
-void get(const Tensors& tensors, const std::string& name, Adam<Scalar>& adam) {
+void get(const Tensors& tensors, const std::string& name, Eigen::Index parameters,
+         Adam<Scalar>& adam) {
   adam.step = tensors.integer(name + ".step");
-  adam.m = vector_from<Scalar>(tensors, name + ".m");
-  adam.v = vector_from<Scalar>(tensors, name + ".v");
+  adam.m = vector_from<Scalar>(tensors, name + ".m", parameters);
+  adam.v = vector_from<Scalar>(tensors, name + ".v", parameters);
+  require(adam.m.size() == adam.v.size(), "{}: tensors '{}.m' and '.v' differ in size",
+          tensors.file, name);
 }
 
 template <typename Scalar>
@@ -75,12 +87,12 @@ template <typename Scalar>
 void get(const Tensors& tensors, Agent<Scalar>& agent) {
   tensors.get("actor", agent.actor().parameters());
   tensors.get("actor_target", agent.actor_target().parameters());
-  get(tensors, "actor_adam", agent.actor_adam());
+  get(tensors, "actor_adam", agent.actor().parameters().size(), agent.actor_adam());
   for (std::size_t i = 0; i < agent.critics().size(); ++i) {
     auto& critic = agent.critics()[i];
     tensors.get(fmt::format("critic{}", i), critic.network.parameters());
     tensors.get(fmt::format("critic{}_target", i), critic.target.parameters());
-    get(tensors, fmt::format("critic{}_adam", i), critic.adam);
+    get(tensors, fmt::format("critic{}_adam", i), critic.network.parameters().size(), critic.adam);
   }
 }
 
@@ -105,15 +117,16 @@ void put(Tensors& tensors, const std::string& name, const ExplorerState<Scalar>&
 
 template <typename Scalar>
 ExplorerState<Scalar> get(const Tensors& tensors, const std::string& name,
-                          ExplorerState<Scalar> state) {
+                          Eigen::Index actor_parameters, ExplorerState<Scalar> state) {
   state.random = random_from(tensors.bytes(name + ".random"), tensors.file);
   state.running = tensors.integer(name + ".running") != 0;
   state.over = tensors.integer(name + ".over") != 0;
   state.episode_seed = static_cast<std::uint64_t>(tensors.integer(name + ".seed"));
-  const Vector<Scalar> actions = vector_from<Scalar>(tensors, name + ".actions");
+  const Vector<Scalar> actions =
+      vector_from<Scalar>(tensors, name + ".actions", state.noise.x.size(), kLongestEpisode);
   state.actions.assign(actions.begin(), actions.end());
   tensors.get(name + ".noise", state.noise.x);
-  state.perturbed = vector_from<Scalar>(tensors, name + ".perturbed");
+  state.perturbed = vector_from<Scalar>(tensors, name + ".perturbed", actor_parameters);
   Eigen::VectorXd numbers(7);
   tensors.get(name + ".numbers", numbers);
   state.sigma_factor = numbers[0];
@@ -213,6 +226,12 @@ void load_segment(ReplayBuffer<Scalar>& buffer, const Segment& segment) {
       std::memcpy(buffer.features(round, e).data(), features, feature_bytes);
       std::memcpy(buffer.action(round, e).data(), actions, action_bytes);
       std::memcpy(static_cast<void*>(&buffer.record(round, e)), records, sizeof(Record));
+      const Record& record = buffer.record(round, e);
+      require(buffer.features(round, e).allFinite() && buffer.action(round, e).allFinite() &&
+                  std::isfinite(record.reward + record.phi + record.phi_mirrored) &&
+                  record.outcome <= Outcome::ended,
+              "{}: the record of round {}, environment {} holds what is no number: damaged",
+              tensors.file, round, e);
       features += feature_bytes;
       actions += action_bytes;
       records += sizeof(Record);
@@ -291,10 +310,13 @@ void load_checkpoint(Training<Scalar>& training, const fs::path& run) {
   tensors.get("normaliser.mean", normaliser.mean);
   tensors.get("normaliser.squares", normaliser.squares);
   training.normaliser.set_state(normaliser);
-  load_segments(training.buffer, run, tensors.integer("rounds"));
+  const std::int64_t rounds = tensors.integer("rounds");
+  require(rounds >= 0, "{}: rounds = {}: must be at least 0", tensors.file, rounds);
+  load_segments(training.buffer, run, rounds);
   for (std::size_t i = 0; i < training.explorers.size(); ++i) {
     auto& explorer = training.explorers[i];
-    explorer.restore(get(tensors, fmt::format("slot{}", i), explorer.state()));
+    explorer.restore(get(tensors, fmt::format("slot{}", i),
+                         training.agent.actor().parameters().size(), explorer.state()));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "extract/error.h"
 #include "extract/file.h"
 #include "train/evaluation_film.h"
+#include "train/human_gait.h"
 #include "train/runner_factory.h"
 #include "train/train.h"
 
@@ -21,6 +22,17 @@ using Json = nlohmann::ordered_json;
 /// Not a number becomes null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+Json to_json(const GaitBand& band) { return {band.low, band.high}; }
+
+/// Null where humans do not run.
+Json to_json(const std::optional<HumanGait>& human) {
+  if (!human) return {};
+  return {{"cadence_per_min", to_json(human->cadence_per_min)},
+          {"step_length_m", to_json(human->step_length_m)},
+          {"duty_factor", to_json(human->duty_factor)},
+          {"flight_share", to_json(human->flight_share)}};
+}
+
 Json to_json(const Gait& gait) {
   return {{"speed_m_s", number(gait.speed_m_s)},
           {"last_speed_m_s", number(gait.last_speed_m_s)},
@@ -28,6 +40,7 @@ Json to_json(const Gait& gait) {
           {"step_length_m", number(gait.step_length_m)},
           {"duty_factor", number(gait.duty_factor)},
           {"flight_share", number(gait.flight_share)},
+          {"leg_phase", number(gait.leg_phase)},
           {"stride_s", number(gait.stride_s)},
           {"peak_ground_force_bw", number(gait.peak_ground_force_bw)}};
 }
@@ -48,6 +61,7 @@ Json to_json(const Evaluation& evaluation, const EvaluateOptions& options) {
           {"distance_se_m", number(evaluation.distance_se_m)},
           {"falls", evaluation.falls},
           {"gait", to_json(evaluation.gait)},
+          {"human_at_this_speed", to_json(human_gait(evaluation.gait.speed_m_s))},
           {"episodes", episodes}};
 }
 
@@ -89,9 +103,24 @@ std::string Evaluation::brief_report() const {
   text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", falls, episodes.front().time_s,
                       gait.speed_m_s);
   if (!std::isfinite(gait.duty_factor)) return text + ", too few steps to speak of a gait";
-  return text + fmt::format(", at last {:.2f}; {:.0f} steps/min of {:.2f} m, duty factor {:.2f}",
-                            gait.last_speed_m_s, gait.cadence_per_min, gait.step_length_m,
-                            gait.duty_factor);
+  text += fmt::format(", at last {:.2f}", gait.last_speed_m_s);
+  const std::optional<HumanGait> human = human_gait(gait.speed_m_s);
+  const auto line = [&](const char* name, double value, GaitBand HumanGait::*band, int digits) {
+    text += fmt::format("\n  {:<18}{:>6.{}f}", name, value, digits);
+    if (!human) return;
+    const auto [low, high] = (*human).*band;
+    text += fmt::format("  {} the human {:.{}f} to {:.{}f}",
+                        ((*human).*band).holds(value) ? "inside" : "outside", low, digits, high,
+                        digits);
+  };
+  line("steps/min", gait.cadence_per_min, &HumanGait::cadence_per_min, 0);
+  line("m a step", gait.step_length_m, &HumanGait::step_length_m, 2);
+  line("duty factor", gait.duty_factor, &HumanGait::duty_factor, 2);
+  line("share in the air", gait.flight_share, &HumanGait::flight_share, 2);
+  if (std::isfinite(gait.leg_phase))
+    text += fmt::format("\n  {:<18}{:>6.2f}  {}", "phase of the legs", gait.leg_phase,
+                        leg_pattern(gait.leg_phase));
+  return text + (human ? "" : "\n  humans do not run at this speed: no figures to compare with");
 }
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {

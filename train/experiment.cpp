@@ -57,6 +57,7 @@ std::string work_on(const Job& job, const std::atomic<bool>& stop) {
       train(job.run, make_runners(options.environment, load_run_demonstration(options, job.run)),
             stop, log.get());
   if (!summary.divergence.empty()) return summary.divergence;
+  if (!summary.unsaved.empty()) return summary.unsaved;
   if (!summary.finished) return "stopped";
   write_file_atomically(job.run / "finished", "");
   fs::remove_all(job.run / "replay");

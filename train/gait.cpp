@@ -79,7 +79,7 @@ Gait gait_of(const Rollout& rollout, const Model& model) {
   gait.last_speed_m_s = speed(later, last);
 
   const std::vector<Stance> all = stances(rollout, model);
-  std::vector<double> step_times, step_lengths, stride_times, duties;
+  std::vector<double> step_times, step_lengths, stride_times, duties, leg_phases;
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i].side == all[i - 1].side) continue;
     step_times.push_back(all[i].start_s - all[i - 1].start_s);
@@ -92,11 +92,19 @@ Gait gait_of(const Rollout& rollout, const Model& model) {
     const double stride = again->start_s - all[i].start_s;
     stride_times.push_back(stride);
     duties.push_back((all[i].end_s - all[i].start_s) / stride);
+    for (const Stance& other : all) {
+      if (other.side == all[i].side || other.start_s < all[i].start_s ||
+          other.start_s >= again->start_s)
+        continue;
+      const double phase = (other.start_s - all[i].start_s) / stride;
+      leg_phases.push_back(std::min(phase, 1 - phase));
+    }
   }
   gait.cadence_per_min = 60 / mean(step_times);
   gait.step_length_m = mean(step_lengths);
   gait.stride_s = mean(stride_times);
   gait.duty_factor = mean(duties);
+  gait.leg_phase = mean(leg_phases);
 
   const double weight = weight_N(model);
   double flight = 0;

@@ -26,6 +26,7 @@ struct Gait {
   double step_length_m = 0;         // from the strike of one foot to that of the other
   double duty_factor = 0;           // share of a stride that a foot is on the ground
   double flight_share = 0;          // of the time with no foot on the ground
+  double leg_phase = 0;             // between the legs' strikes, of a stride: ½ in turn, 0 at once
   double stride_s = 0;              // mean time between strikes of the same foot
   double peak_ground_force_bw = 0;  // largest vertical force on the runner, in body weights
 };

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <thread>
 
 #include "extract/error.h"
 #include "extract/file.h"
@@ -170,6 +172,28 @@ void plot(const std::vector<Arm>& arms, const PlotOptions& options) {
   write_file_atomically(folder / (name + ".csv"), data_of(bands));
   write_file_atomically(folder / (name + ".gnuplot"), script_of(bands, options));
   run_gnuplot(folder, name + ".gnuplot");
+}
+
+void watch(const std::vector<Arm>& arms, const PlotOptions& options, const std::atomic<bool>& stop,
+           std::FILE* messages) {
+  constexpr auto kInterval = std::chrono::milliseconds(300);
+  std::vector<fs::file_time_type> drawn;
+  for (; !stop; std::this_thread::sleep_for(kInterval)) {
+    std::vector<fs::file_time_type> written;
+    std::error_code missing;
+    for (const Arm& arm : arms)
+      for (const fs::path& run : arm.runs)
+        written.push_back(fs::last_write_time(run / "curve.csv", missing));
+    if (written == drawn) continue;
+    drawn = written;
+    std::string report = fmt::format("{}.png drawn", options.out.string());
+    try {
+      plot(arms, options);
+    } catch (const Error& error) {
+      report = fmt::format("waiting: {}", error.what());
+    }
+    if (messages != nullptr) fmt::print(messages, "{}\n", report), std::fflush(messages);
+  }
 }
 
 }  // namespace stride

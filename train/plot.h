@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,5 +29,10 @@ std::vector<Arm> arms_of(const std::vector<std::filesystem::path>& runs);
 /// script that are left beside the picture. Runs are interpolated to common abscissae, as far as
 /// all of an arm go. Throws Error naming the run or column, or where gnuplot fails.
 void plot(const std::vector<Arm>& arms, const PlotOptions& options);
+
+/// Draws whenever a curve has grown, until `stop` is set: for a viewer that loads the picture anew.
+/// Runs without figures are waited for; `messages` (or null) is told why, and of every picture.
+void watch(const std::vector<Arm>& arms, const PlotOptions& options, const std::atomic<bool>& stop,
+           std::FILE* messages);
 
 }  // namespace stride

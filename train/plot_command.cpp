@@ -1,11 +1,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <memory>
 
 #include "train/plot.h"
 
 namespace stride {
+namespace {
+
+std::atomic<bool> interrupted = false;
+
+}  // namespace
 
 void add_plot_command(CLI::App& app) {
   auto* command = app.add_subcommand(
@@ -13,6 +19,7 @@ void add_plot_command(CLI::App& app) {
   struct Request {
     std::vector<std::string> runs;
     PlotOptions options;
+    bool watch = false;
   };
   const auto request = std::make_shared<Request>();
   command
@@ -25,8 +32,14 @@ void add_plot_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--column", request->options.column, "Of curve.csv")->capture_default_str();
   command->add_option("--title", request->options.title, "Of the picture");
+  command->add_flag("--watch", request->watch, "Draw anew whenever a curve grows, until Ctrl-C");
   command->callback([request] {
-    plot(arms_of({request->runs.begin(), request->runs.end()}), request->options);
+    const std::vector<Arm> arms = arms_of({request->runs.begin(), request->runs.end()});
+    if (request->watch) {
+      std::signal(SIGINT, [](int) { interrupted = true; });
+      return watch(arms, request->options, interrupted, stderr);
+    }
+    plot(arms, request->options);
     fmt::print("{0}.svg\n{0}.png\n", request->options.out.string());
   });
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <sstream>
 
 #include "extract/error.h"
 #include "train/safetensors.h"
@@ -11,18 +12,30 @@
 namespace stride {
 namespace {
 
-std::vector<int> numbers(const std::string& text, const std::string& file) {
-  std::vector<int> values;
-  const char *at = text.data(), *const end = at + text.size();
-  while (at < end) {
-    int value = 0;
-    const auto result = std::from_chars(at, end, value);
-    require(result.ec == std::errc() && value > 0 && value <= 4096,
-            "{}: actor.hidden = '{}': must be numbers of neurons, separated by commas", file, text);
-    values.push_back(value);
-    at = result.ptr + (result.ptr < end && *result.ptr == ',' ? 1 : 0);
-  }
-  return values;
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+int number(const Tensors& tensors, const std::string& key, const std::string& text) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  require(result.ec == std::errc() && result.ptr == end && value > 0 && value <= 4096,
+          "{}: {} = '{}': must be whole numbers from 1 to 4096", tensors.file, key,
+          tensors.meta(key));
+  return value;
+}
+
+/// An agent's file.
+Tensors load_agent(const std::filesystem::path& file) {
+  Tensors tensors = load_tensors(file);
+  require(tensors.meta("format") == "stride agent" && tensors.meta("version") == "1",
+          "{}: is a {} of version {}, a stride agent of version 1 is needed", tensors.file,
+          tensors.meta("format"), tensors.meta("version"));
+  return tensors;
 }
 
 void check_names(const Tensors& tensors, const std::string& key,
@@ -100,19 +113,26 @@ void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& f
   save(tensors, file);
 }
 
+PolicyNames load_policy_names(const std::filesystem::path& file) {
+  const Tensors tensors = load_agent(file);
+  return {.features = split(tensors.meta("features")),
+          .actions = split(tensors.meta("actions")),
+          .action_repeat = number(tensors, "action_repeat", tensors.meta("action_repeat"))};
+}
+
 template <typename Scalar>
 Policy<Scalar> load_policy(const std::filesystem::path& file,
                            const std::vector<std::string>& features,
                            const std::vector<std::string>& actions) {
-  const Tensors tensors = load_tensors(file);
-  require(tensors.meta("format") == "stride agent" && tensors.meta("version") == "1",
-          "{}: is a {} of version {}, a stride agent of version 1 is needed", tensors.file,
-          tensors.meta("format"), tensors.meta("version"));
+  const Tensors tensors = load_agent(file);
   check_names(tensors, "features", features);
   check_names(tensors, "actions", actions);
+  std::vector<int> hidden;
+  for (const std::string& neurons : split(tensors.meta("actor.hidden")))
+    hidden.push_back(number(tensors, "actor.hidden", neurons));
   const MlpShape shape{.inputs = static_cast<int>(features.size()),
                        .outputs = static_cast<int>(actions.size()),
-                       .hidden = numbers(tensors.meta("actor.hidden"), tensors.file),
+                       .hidden = hidden,
                        .activation = activation(tensors.meta("actor.activation")),
                        .output = Activation::sigmoid,
                        .layer_norm = tensors.meta("actor.layer_norm") == "true"};

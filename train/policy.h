@@ -48,6 +48,13 @@ void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& f
                  const std::vector<std::string>& actions, int action_repeat,
                  const std::filesystem::path& file);
 
+/// What a policy file says its features and actions are.
+struct PolicyNames {
+  std::vector<std::string> features, actions;
+  int action_repeat = 1;
+};
+PolicyNames load_policy_names(const std::filesystem::path& file);
+
 /// Reads it back. Throws Error naming the file, also where its features or actions are not these.
 template <typename Scalar>
 Policy<Scalar> load_policy(const std::filesystem::path& file,

@@ -44,6 +44,15 @@ class FolderLock {
   int descriptor_;
 };
 
+/// Removes what a kill left half written (write_file_atomically()).
+void remove_unfinished_files(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension().string().starts_with(".tmp")) unfinished.push_back(entry.path());
+  for (const fs::path& file : unfinished) fs::remove(file);
+}
+
 std::string duration_text(double s) {
   if (!std::isfinite(s)) return "?";
   const auto t = static_cast<long>(s);
@@ -76,10 +85,7 @@ class Journal {
     timing_.rows.push_back({row[0], wall_s(), steps_per_s, updates / s});
     distance_m_ = row[6];
     curve_.rows.push_back(std::move(row));
-    keep([&] {
-      save(curve_, run_ / "curve.csv");
-      save(timing_, run_ / "timing.csv");
-    });
+    keep([&] { save_rows(); });
     last_row_ = Clock::now();
     last_decisions_ = progress.decisions;
     last_updates_ = progress.updates;
@@ -94,6 +100,11 @@ class Journal {
     } catch (const Error& error) {
       say("warning: {}; training goes on, writing is tried again later", error.what());
     }
+  }
+
+  void save_rows() const {
+    save(curve_, run_ / "curve.csv");
+    save(timing_, run_ / "timing.csv");
   }
 
   template <typename... Args>
@@ -301,11 +312,19 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
       last_checkpoint = Clock::now();
     }
   }
-  save_checkpoint(training, run);
+  const auto keep_last = [&](const auto& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      if (summary.unsaved.empty()) summary.unsaved = error.what();
+    }
+  };
+  keep_last([&] { save_checkpoint(training, run); });
   summary.finished = progress.decisions >= options.run.decisions;
   // After the checkpoint, so that a run that is continued with more decisions has no row that an
   // uninterrupted one would not have.
   if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
+  if (progress.rows > 0) keep_last([&] { journal.save_rows(); });
   summary.progress = progress;
   return summary;
 }
@@ -352,6 +371,8 @@ TrainSummary train(const fs::path& run, const EnvironmentFactory& make_environme
   const TrainOptions options = load_run_options(run);
   const std::optional<Potential> potential = load_run_demonstration(options, run).potential;
   const FolderLock lock(run);
+  remove_unfinished_files(run);
+  remove_unfinished_files(run / "replay");
   const auto with = options.run.precision == "float" ? train_with<float> : train_with<double>;
   return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages);
 }

@@ -15,6 +15,7 @@ struct TrainSummary {
   Progress progress;
   bool finished = false;   // the decisions of the configuration are done
   std::string divergence;  // why learning was stopped; empty: it was not
+  std::string unsaved;     // why the last checkpoint or row was not written; empty: it was
   double distance_m = 0;   // of the last evaluation
   std::string brief_report() const;
 };
@@ -35,7 +36,8 @@ TrainOptions load_run_options(const std::filesystem::path& run);
 /// Writes curve.csv (`# stride curve 1`: a row each evaluation; it depends on the configuration and
 /// its seed alone, not on threads, speed or interruptions), timing.csv (`# stride timing 1`: wall
 /// clock of the same rows), agent.safetensors and best.safetensors (policy.h). `messages` (or
-/// null) gets the progress. A disk that is full is reported, and writing is tried again later.
+/// null) gets the progress. A disk that is full is reported, and writing is tried again later; if
+/// it still is at the end, the summary says so, and the run continues from the checkpoint before.
 TrainSummary train(const std::filesystem::path& run, const EnvironmentFactory& make_environment,
                    const std::atomic<bool>& stop, std::FILE* messages);
 

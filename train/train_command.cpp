@@ -76,6 +76,9 @@ void train_as_requested(const Request& request) {
   const TrainSummary summary = train(run, runners, interrupted, stderr);
   require(summary.divergence.empty(), "{}: {}; the last good checkpoint is kept", run.string(),
           summary.divergence);
+  require(summary.unsaved.empty(),
+          "{}: {}; make room, then continue from the checkpoint before: stride train --resume {}",
+          run.string(), summary.unsaved, run.string());
   if (!summary.finished)
     fmt::print(stderr, "\nstopped and saved; continue with: stride train --resume {}\n",
                run.string());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/throws.h"
+#include "train/human_gait.h"
 #include "train/rollout.h"
 
 namespace stride {
@@ -46,6 +47,33 @@ TEST_F(Clockwork, HasTheFiguresItWasMadeWith) {
   EXPECT_NEAR(gait.duty_factor, 0.3, 0.02);
   EXPECT_NEAR(gait.flight_share, 0.4, 0.02);
   EXPECT_NEAR(gait.peak_ground_force_bw, 2, 1e-9);
+  EXPECT_NEAR(gait.leg_phase, 0.5, 0.01);
+}
+
+TEST_F(Clockwork, BothLegsAtOnceAreAHop) {
+  for (RolloutFrame& frame : rollout_.frames) {
+    auto& force = frame.kinematics.ground_reaction_N;
+    force[1] = force[0];
+  }
+  EXPECT_NEAR(gait_of(rollout_, model_).leg_phase, 0, 1e-9);
+  EXPECT_THAT(leg_pattern(0), ::testing::HasSubstr("hops"));
+  EXPECT_THAT(leg_pattern(0.48), ::testing::HasSubstr("turns"));
+}
+
+TEST(HumanGait, HoldsTheRunnersThatItIsOf) {
+  const HumanGait slow = human_gait(2.5).value(), fast = human_gait(4.5).value();
+  EXPECT_NEAR((slow.cadence_per_min.low + slow.cadence_per_min.high) / 2, 162, 1e-9);
+  EXPECT_NEAR((fast.duty_factor.low + fast.duty_factor.high) / 2, 0.328, 1e-9);
+  // Strides of 1.86 and 2.96 m were measured at those speeds.
+  EXPECT_TRUE(slow.step_length_m.holds(1.86 / 2));
+  EXPECT_TRUE(fast.step_length_m.holds(2.96 / 2));
+  // The runner of Rajagopal et al. 2016 at 3.8 m/s: strides of 2.6 to 2.7 m, duty factor 0.335.
+  const HumanGait other = human_gait(3.8).value();
+  EXPECT_TRUE(other.step_length_m.holds(2.65 / 2));
+  EXPECT_TRUE(other.duty_factor.holds(0.335));
+  EXPECT_FALSE(other.cadence_per_min.holds(423));
+  EXPECT_FALSE(human_gait(1.6).has_value()) << "that is a walk";
+  EXPECT_FALSE(human_gait(NAN).has_value());
 }
 
 TEST_F(Clockwork, ChatterShorterThan30MsIsNoStep) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "extract/file.h"
 #include "extract/table.h"
 #include "tests/support/temporary_folder.h"
@@ -55,6 +58,27 @@ TEST(Plot, DrawsMeanAndStandardErrorAndLeavesScriptAndFigures) {
   EXPECT_THAT(read_file(folder / "p" / "figure.svg"), ::testing::HasSubstr("arm (2 seeds)"));
   EXPECT_EQ(read_file(folder / "p" / "figure.png").substr(1, 3), "PNG");
   EXPECT_TRUE(fs::exists(folder / "p" / "figure.gnuplot"));
+}
+
+TEST(Plot, WatchedItIsDrawnAnewWhenACurveGrows) {
+  TemporaryFolder folder;
+  std::atomic<bool> stop = false;
+  std::thread watcher([&] {
+    watch(arms_of({folder / "run"}), {.out = folder / "figure"}, stop, nullptr);  // no curve yet
+  });
+  const auto drawn_within_seconds = [&](const std::string& what) {
+    for (int i = 0; i < 500; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+      if (fs::exists(folder / "figure.png") &&
+          read_file(folder / "figure.csv").find(what) != std::string::npos)
+        return true;
+    return false;
+  };
+  write_run(folder / "run", 1);
+  EXPECT_TRUE(drawn_within_seconds("\n10000,10,0\n"));
+  write_run(folder / "run", 2);
+  EXPECT_TRUE(drawn_within_seconds("\n10000,20,0\n"));
+  stop = true;
+  watcher.join();
 }
 
 TEST(Plot, ErrorsNameTheRunAndTheColumn) {

@@ -1,10 +1,12 @@
 #include "train/train.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -160,6 +162,57 @@ TEST(Train, StoppedItKeepsACheckpointAndContinues) {
   stop = false;
   EXPECT_TRUE(train(folder / "b", point_mass, stop, nullptr).finished);
   EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
+}
+
+/// Runs in a process of its own on a disk on which no file can grow beyond `bytes`. Returns whether
+/// it came to its end and said that it could not save.
+bool trains_on_a_full_disk(const fs::path& run, rlim_t bytes) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    const std::atomic<bool> stop = false;
+    const TrainSummary summary = train(run, point_mass, stop, nullptr);
+    ::_exit(summary.finished && summary.unsaved.find("cannot be written") != std::string::npos ? 0
+                                                                                               : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(Train, AFullDiskIsSurvivedAndTheRunContinuesFromTheCheckpointBefore) {
+  TemporaryFolder folder;
+  TrainOptions options = small_run();
+  options.run.checkpoint_s = 0.01;
+  const std::string uninterrupted = trained(options, {}, folder / "a");
+  options.run.decisions = 1000;
+  trained(options, {}, folder / "b");
+  const auto checkpoint = fs::last_write_time(checkpoint_file(folder / "b"));
+  options.run.decisions = 3000;
+  write_run_options(options, folder / "b");
+  EXPECT_TRUE(trains_on_a_full_disk(folder / "b", 12'000));
+  EXPECT_EQ(fs::last_write_time(checkpoint_file(folder / "b")), checkpoint);
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "b"))
+    EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos) << entry.path();
+  const std::atomic<bool> stop = false;
+  const TrainSummary summary = train(folder / "b", point_mass, stop, nullptr);
+  EXPECT_TRUE(summary.finished);
+  EXPECT_EQ(summary.unsaved, "");
+  EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
+}
+
+TEST(Train, WhatAKillLeftHalfWrittenIsRemoved) {
+  TemporaryFolder folder;
+  trained(small_run(), {}, folder / "run");
+  const fs::path left[] = {
+      folder / "run" / "checkpoint.safetensors.tmp123",
+      folder / "run" / "replay" / "000000000001-000000000002.safetensors.tmp9"};
+  for (const fs::path& file : left) std::ofstream(file) << "half";
+  const std::atomic<bool> stop = false;
+  train(folder / "run", point_mass, stop, nullptr);
+  for (const fs::path& file : left) EXPECT_FALSE(fs::exists(file)) << file;
 }
 
 TEST(Train, DivergenceIsNamedAndTheLastCheckpointStays) {
