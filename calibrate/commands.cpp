@@ -8,6 +8,7 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/fit_options.h"
 #include "calibrate/report.h"
+#include "calibrate/report_frames.h"
 #include "extract/error.h"
 #include "extract/file.h"
 
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommand {
-  fs::path trajectory, out, model = default_model_file();
+  fs::path trajectory, out, video, model = default_model_file();
   RunnerSize size;
   std::string direction;
   bool force = false, no_picture = false, mot = false;
@@ -29,6 +30,16 @@ fs::path stem(const fs::path& trajectory) {
   for (const char* ending : {".csv", ".trajectory"})
     if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
   return trajectory.parent_path() / name;
+}
+
+/// The video to draw on; empty if none is named and none lies beside the trajectory.
+fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory) {
+  if (command.video.empty()) return video_in(command.trajectory.parent_path(), trajectory);
+  require(fs::exists(command.video), "--video {}: no such file", command.video.string());
+  require(sha256_of_file(command.video) == trajectory.video_sha256,
+          "--video {}: is not the video that was tracked ({}); give that one, or none",
+          command.video.string(), trajectory.video);
+  return command.video;
 }
 
 void run(const CalibrateCommand& command) {
@@ -45,7 +56,8 @@ void run(const CalibrateCommand& command) {
   write_file_atomically(beside.string() + ".report.txt", report);
   fmt::print(stderr, "{}", report);
   if (result.fit.ok && !command.no_picture)
-    draw_report(trajectory, result, beside.string() + ".report.svg");
+    draw_report(trajectory, model, result, video_of(command, trajectory),
+                beside.string() + ".report.svg");
   require(!result.verdict.refused || (command.force && result.fit.ok),
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
           command.trajectory.string(), result.verdict.text());
@@ -62,6 +74,9 @@ void add_calibrate_commands(CLI::App& app) {
       "calibrate", "fit a trajectory in pixels to the model's proportions: metres and angles");
   calibrate->add_option("trajectory", command->trajectory, "NAME.trajectory.csv")->required();
   calibrate->add_option("-o,--out", command->out, "default: NAME.calibrated.csv beside it");
+  calibrate->add_option(
+      "--video", command->video,
+      "draw the keyframes on its frames (default: the one beside the trajectory)");
   calibrate->add_option("--model", command->model, "OpenSim model (.osim)");
   calibrate->add_option("--height", command->size.height_m, "standing height of the runner, m");
   calibrate->add_option("--leg", command->size.leg_m, "the runner's hip to ankle, m");

@@ -6,38 +6,12 @@
 #include "calibrate/bounce.h"
 #include "calibrate/first_guess.h"
 #include "calibrate/solve.h"
+#include "calibrate/stance.h"
 
 namespace stride {
 namespace {
 
 constexpr double kCoarse = 1e-4, kFine = 1e-9;  // relative decrease of the cost
-
-/// Phases at which a toe (or an ankle, if toes are not seen) stands: low and going back.
-StanceCue stance_cue(const StrideFit& fit, const Directions& directions) {
-  constexpr int kPhases = 96;
-  constexpr double kLow = 0.025;  // of a leg's length
-  StanceCue cue;
-  cue.part_r = fit.toes_seen ? BodyPart::toe_r : BodyPart::ankle_r;
-  const Runner& r = fit.runner;
-  std::vector<Eigen::Vector2d> path;
-  for (int i = 0; i < kPhases; ++i) {
-    const double phase = static_cast<double>(i) / kPhases;
-    const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
-                                fit.harmonics, 1, phase);
-    const double tilt = evaluate_series(r.tilt.data(), 2, phase);
-    path.push_back(
-        place_part(cue.part_r, directions, r.body.data(), r.sides.data(), tilt, leg, phase) +
-        Eigen::Vector2d(0, fit.bounce(phase)));
-  }
-  const auto lowest =
-      std::ranges::min_element(path, {}, [](const Eigen::Vector2d& p) { return p.y(); });
-  const double low = lowest->y() + kLow * (r.body[body::thigh] + r.body[body::shank]);
-  for (int i = 0; i < kPhases; ++i) {
-    const bool back = path[(i + 1) % kPhases].x() < path[(i + kPhases - 1) % kPhases].x();
-    if (path[i].y() < low && back) cue.phases.push_back(static_cast<double>(i) / kPhases);
-  }
-  return cue;
-}
 
 /// Akaike's information criterion, which predicts as leaving marks out one by one does: the cost at
 /// one and the same noise, and one for each parameter.
@@ -94,7 +68,8 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
   // The roll of the camera shows in the feet that stand: they keep their height.
   for (int round = 0; round < 2; ++round) {
     best.bounce = measure_bounce(best, observations);
-    problem.stance = stance_cue(best, problem.directions);
+    const BodyPart part = best.toes_seen ? BodyPart::toe_r : BodyPart::ankle_r;
+    problem.stance = {part, find_stance(best, problem.directions, part).phases};
     settle(problem, best, Loss::tukey, 4, round == 0 ? kCoarse : kFine);
   }
   best.bounce = measure_bounce(best, observations);
@@ -113,6 +88,28 @@ Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions,
   const double scale =
       std::exp(r.camera[camera::log_px_per_m] + r.camera[camera::drift_per_s] * u_s);
   return fit.pelvis_px[frame] + scale * turned(r.camera[camera::roll], q);
+}
+
+Eigen::VectorXd propagated_sd(const StrideFit& fit,
+                              const std::function<Eigen::VectorXd(const StrideFit&)>& values) {
+  const Eigen::VectorXd at = flattened(fit.runner);
+  StrideFit moved;
+  moved.harmonics = fit.harmonics;
+  moved.bounce = fit.bounce;
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(values(fit).size(), at.size());
+  for (Eigen::Index k = 0; k < at.size(); ++k) {
+    const double sd = std::sqrt(fit.covariance(k, k));
+    if (!(sd > 0)) continue;
+    const double h = 1e-3 * std::min(sd, 1.0);  // central differences within a thousandth of sd
+    const auto value = [&](double way) {
+      Eigen::VectorXd there = at;
+      there[k] += way * h;
+      moved.runner = unflattened(there);
+      return values(moved);
+    };
+    jacobian.col(k) = (value(1) - value(-1)) / (2 * h);
+  }
+  return (jacobian * fit.covariance * jacobian.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 Eigen::VectorXd flattened(const Runner& r) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -25,7 +26,10 @@ struct FitOptions {
   std::optional<double> metres_per_pixel;  // in the middle of the clip: known exactly
   Prior roll_rad{0, 0.035};                // of the ground in the image as it is, clockwise < 0
   int harmonics = 0;                       // 0: chosen by the data, from 2 to kMaxHarmonics
-  bool numeric_derivatives = false;        // instead of automatic ones: for the benchmark
+  /// How well a person marks a joint, of a leg's length: no mark is believed to be better, however
+  /// smooth the track through it is.
+  double mark_sd = 0.015;
+  bool numeric_derivatives = false;  // instead of automatic ones: for the benchmark
 };
 
 /// The part of the pelvis' height that repeats at every half stride, seen in the image:
@@ -71,6 +75,10 @@ struct StrideFit {
   double scale_relative_sd() const;
   double roll_sd_rad() const;
 };
+
+/// Standard deviations of what is computed from a fit, by the covariance of its runner.
+Eigen::VectorXd propagated_sd(const StrideFit& fit,
+                              const std::function<Eigen::VectorXd(const StrideFit&)>& values);
 
 /// The blocks of a runner, one after another.
 Eigen::VectorXd flattened(const Runner& runner);

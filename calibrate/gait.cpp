@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "calibrate/human_running.h"
+#include "calibrate/stance.h"
 
 namespace stride {
 namespace {
@@ -64,28 +65,23 @@ void find_foot_strike(const StrideFit& fit, const HumanRunning& human, Gait& gai
   }
 }
 
-/// Heights and speeds of the foot on the model, by phase after its own strike.
+/// Height of the foot on the model, by phase after its own strike.
 struct FootPath {
   std::vector<double> height_m;  // of the lowest point, above the lowest of the stride
-  std::vector<double> back_m;    // toe's speed backwards, m a stride
   double lowest_m = 0;           // below the mean height of the pelvis, negative
 };
 
 FootPath foot_path(const StrideFit& fit, const SagittalModel& model, double foot_strike) {
   FootPath path;
-  std::vector<double> x;
   for (int i = 0; i < kPhases; ++i) {
     const double phase = foot_strike + static_cast<double>(i) / kPhases;
     const auto angles = mean_leg(fit, phase);
     const double tilt = evaluate_series(fit.runner.tilt.data(), 2, phase);
     const auto leg = place_leg(model, tilt, angles.hip, angles.knee, angles.ankle);
     path.height_m.push_back(lowest_point(model, leg) + to_model(fit, model) * fit.bounce(phase));
-    x.push_back(leg.toe.x());
   }
   path.lowest_m = *std::ranges::min_element(path.height_m);
   for (double& height : path.height_m) height -= path.lowest_m;
-  for (int i = 0; i < kPhases; ++i)
-    path.back_m.push_back((x[(i + kPhases - 1) % kPhases] - x[(i + 1) % kPhases]) * kPhases / 2);
   return path;
 }
 
@@ -103,28 +99,11 @@ double duty(const FootPath& path) {
 /// Standard deviations of a sample's points and height, from the covariance of the fit.
 void add_deviations(const StrideFit& fit, const SagittalModel& model, double phase,
                     CalibratedSample& sample) {
-  const Eigen::VectorXd values = flattened(fit.runner);
-  const Eigen::Index n = values.size();
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2 * kBodyPartCount, n);
-  StrideFit moved = fit;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double sd = std::sqrt(fit.covariance(k, k));
-    if (!(sd > 0)) continue;
-    const double h = 1e-3 * std::min(sd, 1.0);  // central differences within a thousandth of sd
-    std::array<CalibratedSample, 2> ends;
-    for (const int end : {0, 1}) {
-      Eigen::VectorXd at = values;
-      at[k] += end == 0 ? -h : h;
-      moved.runner = unflattened(at);
-      ends[end] = pose_at(moved, model, phase);
-    }
-    for (int part = 0; part < kBodyPartCount; ++part)
-      jacobian.block<2, 1>(2 * part, k) = (ends[1].p_m[part] - ends[0].p_m[part]) / (2 * h);
-  }
-  const Eigen::VectorXd variance =
-      (jacobian * fit.covariance * jacobian.transpose()).diagonal().cwiseMax(0);
-  for (int part = 0; part < kBodyPartCount; ++part)
-    sample.sd_m[part] = variance.segment<2>(2 * part).cwiseSqrt();
+  const Eigen::VectorXd sd = propagated_sd(fit, [&](const StrideFit& moved) -> Eigen::VectorXd {
+    const CalibratedSample at = pose_at(moved, model, phase);
+    return Eigen::Map<const Eigen::VectorXd>(at.p_m.front().data(), 2 * kBodyPartCount);
+  });
+  for (int part = 0; part < kBodyPartCount; ++part) sample.sd_m[part] = sd.segment<2>(2 * part);
   const Eigen::Vector4d w = Bounce::weights(phase);
   // The mean height hangs on the lowest foot: as uncertain as an ankle's height.
   const double height_variance =
@@ -176,16 +155,10 @@ Gait analyse_gait(const StrideFit& fit, const SagittalModel& model) {
   gait.duty = duty(path);
   gait.pelvis_height_m = -path.lowest_m;
   gait.bounce_m = to_model(fit, model) * fit.bounce.peak_to_peak_m();
-  // Heel strike and push-off turn the toe: the faster half of stance is the foot that stands.
-  std::vector<double> back(
-      path.back_m.begin(),
-      path.back_m.begin() + std::max(2, static_cast<int>(gait.duty * kPhases)));
-  std::ranges::sort(back, std::greater{});
-  back.resize(std::max<std::size_t>(back.size() / 2, 1));
-  double sum = 0;
-  for (const double each : back) sum += each;
-  gait.speed_m_s = sum / static_cast<double>(back.size()) / to_model(fit, model) /
-                   fit.runner.cadence[cadence::period_s];
+  // Heel strike and push-off turn the toe one way and the other: the mean over stance is nearer
+  // than any one phase of it.
+  for (const BodyPart toe : {BodyPart::toe_r, BodyPart::toe_l})
+    gait.speed_m_s += 0.5 * find_stance(fit, Directions(model), toe).speed_m_s;
   return gait;
 }
 

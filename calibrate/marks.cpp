@@ -31,4 +31,9 @@ Marks observe(const Trajectory& trajectory, bool to_left) {
   return all;
 }
 
+Eigen::Vector2d image_px(const Trajectory& trajectory, bool to_left, const Eigen::Vector2d& z_px) {
+  return {0.5 * trajectory.width_px + (to_left ? -z_px.x() : z_px.x()),
+          0.5 * trajectory.height_px - z_px.y()};
+}
+
 }  // namespace stride

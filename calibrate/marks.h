@@ -29,4 +29,7 @@ struct Marks {
 
 Marks observe(const Trajectory& trajectory, bool to_left);
 
+/// A point as Mark::z_px in pixels of the frame.
+Eigen::Vector2d image_px(const Trajectory& trajectory, bool to_left, const Eigen::Vector2d& z_px);
+
 }  // namespace stride

@@ -11,9 +11,11 @@ namespace stride {
 std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
                         const Calibration& calibration);
 
-/// Draws marks against the fit, the eight poses, and the angles against the band of measured
-/// runners, as SVG (or PNG, by the extension). Throws Error if gnuplot cannot be run.
-void draw_report(const Trajectory& trajectory, const Calibration& calibration,
+/// Draws, as SVG: the keyframes on the frames of the video (on nothing, if `video` is empty), marks
+/// against the fit with its 95 % bands over the clip and over the stride, and the angles against
+/// the band of measured runners. Throws Error if gnuplot cannot be run.
+void draw_report(const Trajectory& trajectory, const SagittalModel& model,
+                 const Calibration& calibration, const std::filesystem::path& video,
                  const std::filesystem::path& file);
 
 /// OpenSim's storage of the nine coordinates, degrees and metres: NAME.mot.

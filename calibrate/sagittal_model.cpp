@@ -32,13 +32,11 @@ SagittalModel::Range range(const Model& model, const char* name) {
   const int index = model.coordinate(name);
   require(index >= 0, "model {}: coordinate '{}' is missing: a runner has it", model.name, name);
   const Coordinate& coordinate = model.coordinates[index];
-  SagittalModel::Range range{coordinate.range_min, coordinate.range_max};
-  for (const CoordinateLimit& limit : model.limits) {
-    if (limit.coordinate != index) continue;
-    range.min = std::max(range.min, kDegree * (limit.lower_limit - limit.transition));
-    range.max = std::min(range.max, kDegree * (limit.upper_limit + limit.transition));
-  }
-  return range;
+  for (const CoordinateLimit& limit : model.limits)
+    if (limit.coordinate == index)
+      return {kDegree * (limit.lower_limit - limit.transition),
+              kDegree * (limit.upper_limit + limit.transition)};
+  return {coordinate.range_min, coordinate.range_max};
 }
 
 /// The axis of a knee's translation: 0 x, 1 y.

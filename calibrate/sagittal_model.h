@@ -38,8 +38,8 @@ struct SagittalModel {
   Eigen::Vector2d p_pelvis_hip_m, p_pelvis_head_m;
   SplineCoefficients knee_x_m, knee_y_m;  // p_femur_tibia against the knee angle
   Eigen::Vector2d p_tibia_talus_m, p_talus_toes_m;
-  /// How far a joint can go: to the end of its range, or until the torque of its limit has risen
-  /// through the whole of its transition, whichever comes first.
+  /// How far a joint can go: until the torque of its limit has risen through the whole of its
+  /// transition. The range of a coordinate, which nothing enforces, counts where there is no limit.
   Range hip, knee, ankle;
   std::vector<Sphere> spheres;
 

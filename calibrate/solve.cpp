@@ -78,11 +78,12 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   add_prior(ceres, r.sides,
             {Prior{0, 0.025}, Prior{0, cm}, Prior{0, cm}, Prior{0, cm}, Prior{0, cm},
              Prior{0, 0.7 * cm}, Prior{0, 0.7 * cm}});
-  // Mean tilt of two measured runners: −1.2° (Hamner 2010), −6.7° (Rajagopal 2016).
-  const double wave = (fit.head_seen ? 2 : 0.5) * kDegree;
+  // Tilt of two measured runners: mean −1.2° (Hamner 2010), −6.7° (Rajagopal 2016); once a stride
+  // by 0.3 to 0.4°, once a step by 1.3 to 3.4°.
+  const double stride = 0.5 * kDegree, step = 2 * kDegree;
   add_prior(ceres, r.tilt,
-            {Prior{-4 * kDegree, 4 * kDegree}, Prior{0, wave}, Prior{0, wave}, Prior{0, wave},
-             Prior{0, wave}});
+            {Prior{-4 * kDegree, 4 * kDegree}, Prior{0, stride}, Prior{0, stride}, Prior{0, step},
+             Prior{0, step}});
   for (auto* curve : {&r.hip, &r.knee, &r.ankle}) {
     std::array<Prior, 2 * kMaxHarmonics + 1> priors;
     priors[0] = {0, 180 * kDegree};
@@ -111,7 +112,7 @@ void add_joint_limits(const FitProblem& problem, StrideFit& fit, ceres::Problem&
     for (int i = 0; i < kPhases; ++i)
       ceres.AddResidualBlock(
           cost<JointLimitResidual, 1, 13>(
-              problem, {fit.harmonics, static_cast<double>(i) / kPhases, range, 0.5 * kDegree}),
+              problem, {fit.harmonics, static_cast<double>(i) / kPhases, range, 5 * kDegree}),
           nullptr, curve.data());
   };
   limit(fit.runner.hip, problem.model.hip);
@@ -189,6 +190,15 @@ void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_
   for (const int length : {body::thigh, body::shank, body::foot, body::trunk})
     ceres.SetParameterLowerBound(body, length, 0.01 * problem.options.leg_m.mean);
   ceres.SetParameterLowerBound(fit.runner.cadence.data(), cadence::period_s, 0.1);
+  // No step goes where its exponential overflows.
+  double* camera = fit.runner.camera.data();
+  const double log_scale = camera[camera::log_px_per_m];
+  ceres.SetParameterLowerBound(camera, camera::log_px_per_m, log_scale - 3);
+  ceres.SetParameterUpperBound(camera, camera::log_px_per_m, log_scale + 3);
+}
+
+double leg_px(const Runner& r) {
+  return (r.body[body::thigh] + r.body[body::shank]) * std::exp(r.camera[camera::log_px_per_m]);
 }
 
 /// The pelvis of every frame where most of its marks put it: one wrong mark moves nothing.
@@ -287,7 +297,9 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
       2.0 * static_cast<double>(fit.pelvis_px.size()) + 30 + 6 * fit.harmonics;
   const double marks = static_cast<double>(absolute.size());
   const double freedom = std::max(0.2, 1 - parameters / marks);
-  fit.sigma_px = std::max(kLeastSigma, 1.4826 * median(absolute) / std::sqrt(freedom));
+  const double seen = std::max(kLeastSigma, 1.4826 * median(absolute) / std::sqrt(freedom));
+  const double own = problem.options.mark_sd * leg_px(fit.runner);
+  fit.sigma_px = std::max(seen, own);
 
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -308,8 +320,7 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
     if (!fit.marks[i].outlier)
       series[index(points[i].part)][points[i].frame] =
           fit.marks[i].r_px * std::sqrt(points[i].weight);
-  fit.correlation = 1;
-  double variance = 0;
+  double alike = 1, variance = 0;
   for (int lag = 0; lag < 12; ++lag) {
     double product = 0, pairs = 0;
     for (const auto& each : series)
@@ -321,8 +332,15 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
     const double mean = product / pairs;
     if (lag == 0) variance = std::max(mean, 1e-30);
     if (lag > 0 && mean < 0.1 * variance) break;
-    if (lag > 0) fit.correlation += 2 * mean / variance;
+    if (lag > 0) alike += 2 * mean / variance;
   }
+  // A tracker that smooths hides the noise of the marks from which it started: the part that does
+  // not show is that of eight marks of each part a stride, however many frames repeat them.
+  const double strides = problem.observations.duration_s / fit.runner.cadence[cadence::period_s];
+  const double frames = problem.observations.count[index(BodyPart::ankle_r)];
+  const double copies = std::max(1.0, frames / (8 * std::max(strides, 1.0)));
+  const double hidden = std::max(0.0, own * own - seen * seen);
+  fit.correlation = (alike * seen * seen + copies * hidden) / (fit.sigma_px * fit.sigma_px);
 }
 
 void estimate_covariance(const FitProblem& problem, StrideFit& fit) {

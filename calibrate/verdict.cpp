@@ -98,6 +98,30 @@ void judge_cuts(const Trajectory& trajectory, const Marks& observations, const S
   }
 }
 
+/// The longest time for which nothing is seen: no mark at all, or none in which the picture was
+/// believed.
+void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
+  constexpr double kBelieved = 0.3;     // as `stride track` writes it
+  constexpr double kLongest = 1.0 / 3;  // of a stride
+  const TrajectoryFrame* last = nullptr;
+  std::array<const TrajectoryFrame*, 2> gap{};
+  double longest_s = 0;
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    if (std::ranges::none_of(frame.points, [](const Point& point) {
+          return point.present() && point.confidence > kBelieved;
+        }))
+      continue;
+    if (last != nullptr && frame.time_s - last->time_s > longest_s)
+      longest_s = frame.time_s - last->time_s, gap = {last, &frame};
+    last = &frame;
+  }
+  if (longest_s > kLongest * period_s)
+    verdict.note(
+        fmt::format("nothing is seen between frames {} and {}: black, hidden or lost; the other "
+                    "strides speak for them",
+                    gap[0]->frame, gap[1]->frame));
+}
+
 /// Which part has the most marks that were not believed.
 std::string worst_part(const Marks& observations, const StrideFit& fit) {
   std::array<int, kBodyPartCount> bad{};
@@ -140,8 +164,8 @@ void judge_time(const StrideFit& fit, const Gait& gait, double strides, Verdict&
   const double gravity = apparent_gravity(fit);
   if (!walks && fit.bounce.peak_to_peak_m() > 0.02 && (gravity < 0.45 || gravity > 3))
     verdict.note(
-        fmt::format("the runner falls with {:.1f} g: is the frame rate or the slow-motion "
-                    "factor right?",
+        fmt::format("the runner falls with {:.1f} g: is the frame rate, the slow-motion factor "
+                    "or the runner's size (--leg) right?",
                     gravity));
 }
 
@@ -200,6 +224,7 @@ void judge_fit(const Trajectory& trajectory, const Marks& observations, const St
     verdict.note(outliers);
   judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict);
   judge_cuts(trajectory, observations, fit, leg_px, verdict);
+  judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
   if (gait.likeness < 0.6)
     verdict.note(fmt::format("hip and knee move unlike a human runner's (correlation {:.2f})",
                              gait.likeness));

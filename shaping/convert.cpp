@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "calibrate/calibrate.h"
 #include "calibrate/report.h"
+#include "calibrate/report_frames.h"
 #include "extract/annotation/journal.h"
 #include "extract/error.h"
 #include "extract/file.h"
@@ -82,7 +84,9 @@ class Clip {
     const Calibration calibration = calibrate(trajectory, model_, fit_options(clip_.size));
     write_file_atomically(out(".report.txt"), report_text(trajectory, model_, calibration));
     if (calibration.fit.ok && options_.pictures)
-      draw_report(trajectory, calibration, out(".report.svg"));
+      draw_report(trajectory, model_, calibration,
+                  is_video(input_) ? input_ : video_in(input_.parent_path(), trajectory),
+                  out(".report.svg"));
     const bool accepted = !calibration.verdict.refused || (clip_.force && calibration.fit.ok);
     require(accepted, "{}", calibration.verdict.text());
     describe(calibration.run, calibration.observations.duration_s);
@@ -111,7 +115,7 @@ class Clip {
   std::string fingerprint() const {
     const KeyframeOptions& k = clip_.keyframes;
     std::string all =
-        fmt::format("1 {} {} {} {} {} {} {} {} {} {} {} {} {} {}", sha256_of_file(input_),
+        fmt::format("2 {} {} {} {} {} {} {} {} {} {} {} {} {} {}", sha256_of_file(input_),
                     sha256_of_file(options_.model), clip_.size.height_m.value_or(0),
                     clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
                     clip_.direction, clip_.slow_motion, clip_.force, k.count, k.foot, k.symmetric,
@@ -124,6 +128,8 @@ class Clip {
 
   bool is_done(const std::string& stamp) {
     if (!fs::exists(out(".converted.json")) || !fs::exists(out(".potential.json"))) return false;
+    const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg"));
+    if (options_.pictures && !drawn) return false;
     const auto json = nlohmann::json::parse(read_file(out(".converted.json")), nullptr, false);
     if (!json.is_object() || json.value("inputs", "") != stamp) return false;
     const auto number = [&](const char* key) {
@@ -202,15 +208,24 @@ std::vector<Converted> convert(const std::vector<fs::path>& inputs, const Conver
   std::vector<Converted> results(inputs.size());
   std::atomic<std::size_t> next{0};
   std::mutex reporting;
-  std::size_t done = 0;
+  std::size_t done = 0, converted = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto left = [&]() -> std::string {
+    if (converted == 0 || done == inputs.size()) return "";
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return fmt::format(" (about {:.0f} s left)", spent.count() / static_cast<double>(converted) *
+                                                     static_cast<double>(inputs.size() - done));
+  };
   const auto work = [&] {
     for (std::size_t i = next++; i < inputs.size(); i = next++) {
       results[i] = Clip(inputs[i], options, model).convert_or_explain();
       const std::lock_guard lock(reporting);
       ++done;
+      converted += results[i].unchanged ? 0 : 1;
       if (options.progress)
-        options.progress(fmt::format("{} of {}: {}: {}", done, inputs.size(), results[i].name,
-                                     results[i].unchanged ? "unchanged" : results[i].verdict));
+        options.progress(fmt::format("{} of {}: {}: {}{}", done, inputs.size(), results[i].name,
+                                     results[i].unchanged ? "unchanged" : results[i].verdict,
+                                     left()));
     }
   };
   const int wanted =

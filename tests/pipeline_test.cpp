@@ -68,11 +68,12 @@ TEST(Pipeline, MakesThePotentialOfTheRunnerFromHisVideo) {
   const Table truth = load_table(kVideos / "human.truth_m.csv", "truth", 1);
   const CalibratedTrajectory run = load_calibrated(folder / "human.calibrated.csv");
   EXPECT_NEAR(run.metres_per_pixel / truth.meta_number("metres_per_pixel"), 1, 0.02);
-  EXPECT_NEAR(run.period_s / truth.meta_number("period_s"), 1, 0.01);
+  EXPECT_NEAR(run.period_s / truth.meta_number("period_s"), 1, 0.005);
+  EXPECT_NEAR(run.speed_m_s / truth.meta_number("speed_m_s"), 1, 0.03);
   const SagittalModel model = sagittal_model(load_osim(default_model_file()));
   for (const BodyPart part :
        {BodyPart::knee_r, BodyPart::ankle_r, BodyPart::knee_l, BodyPart::ankle_l})
-    EXPECT_LT(rms_m(run, truth, model, part), 0.025) << name(part);
+    EXPECT_LT(rms_m(run, truth, model, part), 0.018) << name(part);
 
   // A potential is highest where the runner of the video is, whatever the phase.
   const Potential potential = load_potential(folder / "human.potential.json");

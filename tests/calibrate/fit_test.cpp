@@ -10,9 +10,10 @@ namespace {
 
 SagittalModel default_model() { return sagittal_model(load_osim(default_model_file())); }
 
-/// Scale and roll are not in the marks: given.
+/// Scale and roll are not in the marks: given. The marks are as good as their residuals say.
 FitOptions known_scale_and_roll() {
   FitOptions options;
+  options.mark_sd = 0;
   options.metres_per_pixel = 1 / 130.0;
   options.roll_rad = {0, 1e-6};
   return options;

@@ -65,9 +65,9 @@ TEST(SagittalModel, KnowsTheLimitsAndTheSoleOfTheModel) {
   const SagittalModel model = default_model();
   const double degree = M_PI / 180;
   EXPECT_NEAR(model.hip.min, -40 * degree, 1e-6);
-  EXPECT_NEAR(model.hip.max, 120 * degree, 1e-6);  // the range ends before the limit's transition
-  EXPECT_NEAR(model.knee.min, -120 * degree, 1e-6);
-  EXPECT_NEAR(model.knee.max, 10 * degree, 1e-6);
+  EXPECT_NEAR(model.hip.max, 130 * degree, 1e-6);  // the limits, not the narrower ranges
+  EXPECT_NEAR(model.knee.min, -150 * degree, 1e-6);
+  EXPECT_NEAR(model.knee.max, 20 * degree, 1e-6);
   EXPECT_NEAR(model.ankle.min, -50 * degree, 1e-6);
   EXPECT_NEAR(model.ankle.max, 30 * degree, 1e-6);
   ASSERT_EQ(model.spheres.size(), 2u);

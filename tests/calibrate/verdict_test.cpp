@@ -83,6 +83,29 @@ TEST_F(Verdicts, AWrongFrameRateIsTold) {
   EXPECT_THAT(judge(t), HasSubstr("frame rate or the slow-motion factor right?"));
 }
 
+TEST_F(Verdicts, TwoPeopleWhoCrossAreTold) {
+  Trajectory t = good();
+  // For a third of the clip the marks are on somebody who runs the other way through the frame.
+  const Trajectory other = synthetic_trajectory(
+      synthetic_runner(), model_, {.duration_s = 2, .to_left = true, .noise_px = 1, .seed = 2});
+  for (TrajectoryFrame& frame : t.frames)
+    if (frame.frame >= 20 && frame.frame < 40) {
+      frame.points = other.frames[static_cast<std::size_t>(frame.frame)].points;
+      for (Point& point : frame.points) point.p_px.x() += 6.0 * (30 - frame.frame);
+    }
+  EXPECT_THAT(judge(t), HasSubstr("another person"));
+}
+
+TEST_F(Verdicts, BlackFramesAreTold) {
+  Trajectory lost = good(), guessed = good();
+  for (int i = 20; i < 40; ++i) {
+    lost.frames[i].points = {};
+    for (Point& point : guessed.frames[i].points) point.confidence *= 0.2;  // the prior alone
+  }
+  for (const Trajectory& t : {lost, guessed})
+    EXPECT_THAT(judge(t), HasSubstr("nothing is seen between frames 19 and 40"));
+}
+
 TEST_F(Verdicts, ACutIsTold) {
   Trajectory t = good();
   for (TrajectoryFrame& frame : t.frames)

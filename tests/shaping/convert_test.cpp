@@ -61,6 +61,47 @@ TEST(Convert, LeavesAloneWhatHasNotChanged) {
             read_file(folder / "out" / "human.potential.json"));
 }
 
+TEST(Convert, GoesOnWhereItWasKilled) {
+  const TemporaryFolder folder;
+  std::vector<std::filesystem::path> inputs;
+  for (const char* name : {"a", "b"}) {
+    inputs.push_back(folder / (std::string(name) + ".trajectory.csv"));
+    std::filesystem::copy_file(kVideos / "human.truth.csv", inputs.back());
+  }
+  // Killed as soon as the first clip is done: the second is then under way.
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    ConvertOptions options = into(folder);
+    options.threads = 1;
+    options.progress = [](const std::string&) { ::_exit(0); };
+    convert(inputs, options);
+  }
+  ::waitpid(killed, nullptr, 0);
+  std::string progress;
+  ConvertOptions options = into(folder);
+  options.threads = 1;
+  options.progress = [&](const std::string& line) { progress += line + "\n"; };
+  const auto results = convert(inputs, options);
+  EXPECT_TRUE(results[0].unchanged);
+  EXPECT_FALSE(results[1].unchanged || results[1].failed) << results[1].verdict;
+  EXPECT_THAT(progress, testing::HasSubstr("1 of 2: a: unchanged"));
+  EXPECT_THAT(progress, testing::HasSubstr("2 of 2: b: ok"));
+}
+
+TEST(Convert, SaysHowLongItWillTake) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  std::filesystem::copy_file(kVideos / "human.truth.csv", folder / "other.trajectory.csv");
+  std::vector<std::string> progress;
+  ConvertOptions options = into(folder);
+  options.threads = 1;
+  options.progress = [&](const std::string& line) { progress.push_back(line); };
+  convert({folder / "human.trajectory.csv", folder / "other.trajectory.csv"}, options);
+  ASSERT_EQ(progress.size(), 2u);
+  EXPECT_THAT(progress[0], testing::MatchesRegex("1 of 2: human: ok .about [0-9]+ s left."));
+  EXPECT_THAT(progress[1], testing::Not(testing::HasSubstr("left")));
+}
+
 TEST(Convert, TakesTheClicksThatAKilledWindowLeft) {
   const TemporaryFolder folder;
   for (const char* name : {"human.mp4", "human.keypoints.json"})

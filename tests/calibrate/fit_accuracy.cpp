@@ -1,0 +1,117 @@
+// The figures of calibrate/README.md: the fit against the truth of the rendered clips, over many
+// seeds. Not among the tests; a short version of it is (rendered_test.cpp).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "extract/error.h"
+#include "extract/marked.h"
+#include "tests/calibrate/rendered.h"
+#include "videos/truth.h"
+
+namespace stride {
+namespace {
+
+struct Options {
+  std::vector<std::string> clips{"human", "game", "cartoon"};
+  std::string from = "clicks";
+  unsigned seeds = 10, first = 1;
+  bool vary = false, known_leg = false;
+};
+
+/// The shipped video, tracked from clicks of another hand.
+Trajectory tracked(const videos::Clip& clip, unsigned seed) {
+  const std::filesystem::path video =
+      std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / (clip.name + ".mp4");
+  videos::Clip clicked = clip;
+  clicked.click_seed = seed;
+  const Keypoints clicks = videos::clicks(clicked);
+  return track(video, {marks_of(clicks), video_times(video, clicks.slow_motion)}).trajectory;
+}
+
+/// Mean, and greatest size, of a number of every fit.
+template <typename Number>
+std::string spread(const std::vector<Accuracy>& all, double unit, Number number) {
+  double sum = 0, greatest = 0;
+  for (const Accuracy& a : all) {
+    sum += number(a) / unit;
+    greatest = std::max(greatest, std::abs(number(a) / unit));
+  }
+  return fmt::format("{:+6.2f} {:5.2f}", sum / static_cast<double>(all.size()), greatest);
+}
+
+template <typename Number>
+double share_inside(const std::vector<Accuracy>& all, Number z) {
+  const auto inside =
+      std::ranges::count_if(all, [&](const Accuracy& a) { return std::abs(z(a)) < 1.96; });
+  return 100.0 * static_cast<double>(inside) / static_cast<double>(all.size());
+}
+
+void measure(const Options& options, const std::string& name, const SagittalModel& model) {
+  std::vector<Accuracy> all;
+  std::string refused;
+  unsigned worst = 0;
+  double worst_m = 0;
+  for (unsigned seed = options.first; seed < options.first + options.seeds; ++seed) {
+    videos::Clip clip = videos::clip(name);
+    if (options.from != "video") clip.seed = 1000 + seed;
+    if (options.vary) clip = varied(clip, seed);
+    const Trajectory trajectory =
+        options.from == "video"
+            ? tracked(clip, seed)
+            : observed(clip, {options.from == "frames", clip.click_sd_px, seed});
+    FitOptions fit;
+    if (options.known_leg) fit.leg_m = known_leg(clip, seed);
+    const Calibration found = calibrate(trajectory, model, fit);
+    if (found.verdict.refused)
+      refused += fmt::format("  seed {}: {}\n", seed, found.verdict.text());
+    else
+      all.push_back(accuracy(found, clip, model));
+    if (!found.verdict.refused && all.back().worst_rms_m() > worst_m)
+      worst_m = all.back().worst_rms_m(), worst = seed;
+  }
+  if (!all.empty()) {
+    int inside = 0, coordinates = 0;
+    for (const Accuracy& a : all) inside += a.inside, coordinates += a.coordinates;
+    fmt::print("{:<10} {:4}  {}  {}  {}  {}  {}  {:7.1f} {:8.1f} {:7.1f}  {:5}\n", name, all.size(),
+               spread(all, 0.01, [](const Accuracy& a) { return a.period; }),
+               spread(all, 0.01, [](const Accuracy& a) { return a.scale; }),
+               spread(all, 0.01, [](const Accuracy& a) { return a.speed; }),
+               spread(all, M_PI / 180, [](const Accuracy& a) { return a.roll_rad; }),
+               spread(all, 0.01, [](const Accuracy& a) { return a.worst_rms_m(); }),
+               100.0 * inside / coordinates,
+               share_inside(all, [](const Accuracy& a) { return a.period_z; }),
+               share_inside(all, [](const Accuracy& a) { return a.scale_z; }), worst);
+  }
+  fmt::print("{}", refused);
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace stride
+
+int main(int argc, char** argv) try {
+  stride::Options options;
+  CLI::App app("Measures the fit against the truth of rendered clips");
+  app.add_option("clips", options.clips, "clips of videos/")->capture_default_str();
+  app.add_option("--from", options.from,
+                 "clicks: eight frames a stride; frames: every frame, as noisy; video: the shipped "
+                 "video tracked from other clicks")
+      ->check(CLI::IsMember({"clicks", "frames", "video"}));
+  app.add_option("--seeds", options.seeds, "how many of each clip");
+  app.add_option("--first", options.first, "the first seed");
+  app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");
+  app.add_flag("--known-leg", options.known_leg, "the leg's length is given, to 2 %");
+  CLI11_PARSE(app, argc, argv);
+  const auto model = stride::sagittal_model(stride::load_osim(stride::default_model_file()));
+  fmt::print(
+      "clip       fits  period, %     scale, %      speed, %      roll, deg     worst rms, cm "
+      "inside: coords, period, scale  worst seed\n"
+      "                 mean   most   mean   most   mean   most   mean   most   mean   most\n");
+  for (const std::string& clip : options.clips) stride::measure(options, clip, model);
+} catch (const stride::Error& error) {
+  fmt::print(stderr, "fit_accuracy: {}\n", error.what());
+  return 1;
+}
