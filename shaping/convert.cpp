@@ -221,7 +221,7 @@ std::vector<Converted> convert(const std::vector<fs::path>& inputs, const Conver
       results[i] = Clip(inputs[i], options, model).convert_or_explain();
       const std::lock_guard lock(reporting);
       ++done;
-      converted += results[i].unchanged ? 0 : 1;
+      converted += results[i].unchanged || results[i].failed ? 0 : 1;
       if (options.progress)
         options.progress(fmt::format("{} of {}: {}: {}{}", done, inputs.size(), results[i].name,
                                      results[i].unchanged ? "unchanged" : results[i].verdict,
