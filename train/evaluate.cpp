@@ -33,7 +33,7 @@ Json to_json(const std::optional<HumanGait>& human) {
           {"flight_share", to_json(human->flight_share)}};
 }
 
-Json to_json(const Gait& gait) {
+Json to_json(const GaitSummary& gait) {
   return {{"speed_m_s", number(gait.speed_m_s)},
           {"last_speed_m_s", number(gait.last_speed_m_s)},
           {"cadence_per_min", number(gait.cadence_per_min)},

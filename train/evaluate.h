@@ -23,7 +23,7 @@ struct Evaluation {
   std::vector<EpisodeSummary> episodes;
   double distance_m = 0, distance_se_m = 0;  // mean and standard error
   int falls = 0;
-  Gait gait;  // of the episode that came farthest
+  GaitSummary gait;  // of the episode that came farthest
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -66,8 +66,8 @@ std::vector<Stance> stances(const Rollout& rollout, const Model& model) {
   return all;
 }
 
-Gait gait_of(const Rollout& rollout, const Model& model) {
-  Gait gait;
+GaitSummary gait_of(const Rollout& rollout, const Model& model) {
+  GaitSummary gait;
   const auto& frames = rollout.frames;
   const RolloutFrame &first = frames.front(), &last = frames.back();
   const RolloutFrame& later = frames[frames.size() * 2 / 3];

@@ -19,7 +19,7 @@ struct Stance {
 std::vector<Stance> stances(const Rollout& rollout, const Model& model);
 
 /// Figures of running, over the steps of the rollout; NaN where there are too few.
-struct Gait {
+struct GaitSummary {
   double speed_m_s = 0;             // distance over time
   double last_speed_m_s = 0;        // over the last third of the time
   double cadence_per_min = 0;       // steps of either foot
@@ -31,7 +31,7 @@ struct Gait {
   double peak_ground_force_bw = 0;  // largest vertical force on the runner, in body weights
 };
 
-Gait gait_of(const Rollout& rollout, const Model& model);
+GaitSummary gait_of(const Rollout& rollout, const Model& model);
 
 double weight_N(const Model& model);
 

@@ -23,7 +23,7 @@ struct HumanGait {
 /// Nothing below 2 m/s, where humans walk, and above 5.5 m/s, where they sprint.
 std::optional<HumanGait> human_gait(double speed_m_s);
 
-/// Gait::leg_phase in words; from 0.4 on the legs take turns, up to 0.1 they hop.
+/// GaitSummary::leg_phase in words; from 0.4 on the legs take turns, up to 0.1 they hop.
 const char* leg_pattern(double leg_phase);
 
 }  // namespace stride

@@ -39,7 +39,7 @@ class Clockwork : public ::testing::Test {
 };
 
 TEST_F(Clockwork, HasTheFiguresItWasMadeWith) {
-  const Gait gait = gait_of(rollout_, model_);
+  const GaitSummary gait = gait_of(rollout_, model_);
   EXPECT_NEAR(gait.speed_m_s, 3, 1e-9);
   EXPECT_NEAR(gait.cadence_per_min, 120 / 0.7, 2);
   EXPECT_NEAR(gait.step_length_m, 3 * 0.35, 0.02);
@@ -88,7 +88,7 @@ TEST_F(Clockwork, ARunnerThatStandsHasNoSteps) {
     frame.state.q[1] = 0;
     for (auto& force : frame.kinematics.ground_reaction_N) force.y = weight_N(model_) / 2;
   }
-  const Gait gait = gait_of(rollout_, model_);
+  const GaitSummary gait = gait_of(rollout_, model_);
   EXPECT_TRUE(std::isnan(gait.cadence_per_min));
   EXPECT_TRUE(std::isnan(gait.duty_factor));
   EXPECT_EQ(gait.speed_m_s, 0);
