@@ -84,11 +84,13 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   add_prior(ceres, r.tilt,
             {Prior{-4 * kDegree, 4 * kDegree}, Prior{0, stride}, Prior{0, stride}, Prior{0, step},
              Prior{0, step}});
+  // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1. It
+  // tells where every stride was clicked at the same few phases.
   for (auto* curve : {&r.hip, &r.knee, &r.ankle}) {
     std::array<Prior, 2 * kMaxHarmonics + 1> priors;
     priors[0] = {0, 180 * kDegree};
     for (int h = 1; h <= kMaxHarmonics; ++h)
-      priors[2 * h - 1] = priors[2 * h] = {0, 120 * kDegree / (h * h)};
+      priors[2 * h - 1] = priors[2 * h] = {0, 200 * kDegree / (h * h * h)};
     add_prior(ceres, *curve, priors);
   }
   std::array<Prior, 9> asymmetry;
