@@ -49,11 +49,13 @@ Vector2d normal_pair(std::mt19937_64& random) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-Trajectory clicks_on(const Trajectory& truth, int spacing, double noise_px, unsigned seed) {
+Trajectory clicks_on(const Trajectory& truth, int first, int spacing, double noise_px,
+                    unsigned seed) {
   std::mt19937_64 random(seed);
   Trajectory clicks = truth;
   clicks.frames.clear();
-  for (std::size_t i = 0; i < truth.frames.size(); i += static_cast<std::size_t>(spacing)) {
+  for (auto i = static_cast<std::size_t>(first); i < truth.frames.size();
+       i += static_cast<std::size_t>(spacing)) {
     TrajectoryFrame& frame = clicks.frames.emplace_back(truth.frames[i]);
     for (const BodyPart part : kRequiredParts) frame[part].p_px += noise_px * normal_pair(random);
   }
@@ -77,12 +79,13 @@ Trajectory splined(const Trajectory& clicks, const Trajectory& truth) {
 }
 
 /// Sorted distances from the truth, over the frames of the first that lie inside the clicks.
-std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth, int last) {
+std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth, int first,
+                              int last) {
   std::map<int, const TrajectoryFrame*> true_frames;
   for (const TrajectoryFrame& frame : truth.frames) true_frames[frame.frame] = &frame;
   std::vector<double> errors;
   for (const TrajectoryFrame& frame : result.frames)
-    if (frame.frame <= last)
+    if (frame.frame >= first && frame.frame <= last)
       for (const BodyPart part : kScoredParts)
         errors.push_back((frame[part].p_px - (*true_frames.at(frame.frame))[part].p_px).norm());
   std::ranges::sort(errors);
@@ -112,7 +115,7 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
   for (const double noise_px : options.noises_px)
     for (const int spacing : options.spacings) {
       const Trajectory clicks =
-          clicks_on(truth, spacing, noise_px, options.seed + static_cast<unsigned>(spacing));
+          clicks_on(truth, options.first_frame, spacing, noise_px, options.seed + static_cast<unsigned>(spacing));
       const auto tracked = [&](bool flow) {
         std::size_t next = 0;
         const FrameSource source = [&](VideoFrame& frame) {
@@ -123,15 +126,17 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
         TrackOptions track_options;
         track_options.flow = flow;
         track_options.camera = false;
-        return track(clicks, times.times_s, source, track_options).trajectory;
+        return track(clicks, times.times_s, source, track_options);
       };
       const int last = clicks.frames.back().frame;
-      const auto errors = errors_px(tracked(true), truth, last);
+      const Tracked result = tracked(true);
+      const auto errors = errors_px(result.trajectory, truth, options.first_frame, last);
       TrackScore& score = scores.emplace_back();
+      score.period_s = result.summary.prior.legs.period_s;
       score.spacing_frames = spacing;
       score.noise_px = noise_px;
-      score.spline_px = rms(errors_px(splined(clicks, truth), truth, last));
-      score.prior_px = rms(errors_px(tracked(false), truth, last));
+      score.spline_px = rms(errors_px(splined(clicks, truth), truth, options.first_frame, last));
+      score.prior_px = rms(errors_px(tracked(false).trajectory, truth, options.first_frame, last));
       score.tracked_px = rms(errors);
       score.tracked_p95_px = errors[errors.size() * 95 / 100];
     }

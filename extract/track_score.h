@@ -17,12 +17,14 @@ struct TrackScore {
   double prior_px = 0;     // of the prior alone, without looking at the picture
   double tracked_px = 0;   // of track()
   double tracked_p95_px = 0;
+  double period_s = 0;  // of the stride that was found
   double gain() const { return spline_px / tracked_px; }
 };
 
 struct ScoreOptions {
   std::vector<int> spacings{3, 4, 5, 6, 7, 8};
   std::vector<double> noises_px{0, 1.5};
+  int first_frame = 0;  // the first click
   unsigned seed = 1;
 };
 

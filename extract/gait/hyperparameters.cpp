@@ -1,0 +1,138 @@
+#include "extract/gait/hyperparameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "extract/gait/regression.h"
+
+namespace stride {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Joints clicked on the same frames have the same covariance.
+bool same_times(const GroupData& a, const GroupData& b) {
+  return std::ranges::equal(a.samples, b.samples, [](const Sample& s, const Sample& t) {
+    return s.time_s == t.time_s && s.left == t.left;
+  });
+}
+
+/// −log of the probability of the samples, without constants.
+double surprise(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
+  double sum = 0;
+  std::array<MatrixXd, 2> matrices;
+  const GroupData* before = nullptr;
+  for (const GroupData& data : groups) {
+    if (before == nullptr || !same_times(*before, data))
+      matrices = covariance_matrices(kernel, data);
+    before = &data;
+    for (int axis = 0; axis < 2; ++axis) {
+      MatrixXd noisy = matrices[axis];
+      noisy.diagonal().array() += std::pow(kernel.noise_px / data.scale_px[axis], 2) +
+                                  kJitter * noisy.diagonal().maxCoeff();
+      const Eigen::LLT<MatrixXd> factor(noisy);
+      if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+      const VectorXd white = factor.matrixL().solve(coordinate(data, axis));
+      const auto lower = factor.matrixLLT().diagonal();
+      sum += 0.5 * white.squaredNorm() + lower.array().log().sum();
+    }
+  }
+  return sum;
+}
+
+/// A hyperparameter: where it is expected (log-normal) for legs and trunk, and allowed.
+struct Expected {
+  double value, spread;
+};
+struct Hyperparameter {
+  double GaitKernel::*member;
+  Expected legs, trunk;
+  double low, high;
+};
+constexpr std::array kHyperparameters{
+    Hyperparameter{&GaitKernel::period_s, {0.75, 0.25}, {0.75, 0.25}, 0.4, 2.2},
+    Hyperparameter{&GaitKernel::amplitude, {1, 1}, {1, 0.4}, 0.02, 20},
+    Hyperparameter{&GaitKernel::roughness, {0.75, 0.25}, {1.0, 0.3}, 0.2, 2},
+    Hyperparameter{&GaitKernel::coherence_strides, {20, 1}, {20, 1}, 1, 100},
+    Hyperparameter{&GaitKernel::asymmetry, {0.2, 0.7}, {0.2, 0.7}, 0.01, 1},
+    Hyperparameter{&GaitKernel::residual, {0.1, 1}, {0.5, 1}, 0.01, 20},
+    Hyperparameter{&GaitKernel::residual_strides, {0.15, 0.3}, {0.15, 0.3}, 0.05, 0.6},
+    Hyperparameter{&GaitKernel::noise_px, {0.7, 0.7}, {0.7, 0.7}, 0.05, 20}};
+
+/// Between clicks of one side. A stride that hardly more than one click saw cannot be told from
+/// others.
+double median_spacing_s(const std::vector<Sample>& samples) {
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    if (samples[i].left == samples[i - 1].left)
+      spacings.push_back(samples[i].time_s - samples[i - 1].time_s);
+  if (spacings.empty()) return 0;
+  const auto middle = spacings.begin() + static_cast<long>(spacings.size() / 2);
+  std::ranges::nth_element(spacings, middle);
+  return *middle;
+}
+
+}  // namespace
+
+double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
+  double sum = 0;
+  const bool legs = groups.front().group.paired();
+  for (const Hyperparameter& h : kHyperparameters) {
+    const double value = kernel.*h.member;
+    if (value < h.low || value > h.high) return std::numeric_limits<double>::infinity();
+    const Expected& expected = legs ? h.legs : h.trunk;
+    sum += 0.5 * std::pow(std::log(value / expected.value) / expected.spread, 2);
+  }
+  return sum + surprise(kernel, groups);
+}
+
+Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
+  const bool legs = groups.front().group.paired();
+  double step = 1.8;
+  for (int round = 0; round < rounds; ++round, step = std::sqrt(step))
+    for (const Hyperparameter& h : kHyperparameters) {
+      const bool is_period = h.member == &GaitKernel::period_s;
+      if (is_period && !legs) continue;  // the trunk takes the legs'
+      const double factor = is_period ? 1 + 0.02 * (step - 1) : step;
+      for (const double f : {factor, 1 / factor}) {
+        Fitted next = best;
+        int moves = 0;
+        for (; moves < 3; ++moves) {
+          next.kernel.*h.member *= f;
+          next.cost = cost(next.kernel, groups);
+          if (next.cost >= best.cost) break;
+          best = next;
+        }
+        if (moves > 0) break;
+      }
+    }
+  return best;
+}
+
+Fitted fitted(const std::vector<GroupData>& groups) {
+  std::vector<Fitted> scan;
+  const double shortest_s = std::clamp(1.6 * median_spacing_s(groups.front().samples), 0.4, 1.2);
+  for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.015) {
+    GaitKernel kernel;
+    kernel.period_s = period_s;
+    scan.push_back({kernel, cost(kernel, groups)});
+  }
+  std::vector<Fitted> peaks;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if ((i == 0 || scan[i].cost <= scan[i - 1].cost) &&
+        (i + 1 == scan.size() || scan[i].cost < scan[i + 1].cost))
+      peaks.push_back(scan[i]);
+  const auto cheaper = [](const Fitted& a, const Fitted& b) { return a.cost < b.cost; };
+  std::ranges::sort(peaks, cheaper);
+  if (peaks.size() > 6) peaks.resize(6);
+  for (Fitted& peak : peaks) peak = refined(peak, groups, 1);
+  std::ranges::sort(peaks, cheaper);
+  if (peaks.size() > 2) peaks.resize(2);
+  for (Fitted& peak : peaks) peak = refined(peak, groups, 4);
+  return *std::ranges::min_element(peaks, cheaper);
+}
+
+}  // namespace stride

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "extract/gait/kernel.h"
+#include "extract/gait/samples.h"
+
+namespace stride {
+
+constexpr double kJitter = 1e-9;  // of the largest variance, against rounding
+
+/// Covariance of the samples, for each coordinate.
+std::array<Eigen::MatrixXd, 2> covariance_matrices(const GaitKernel& kernel, const GroupData& data);
+
+/// The samples of a coordinate in units of the scale.
+Eigen::VectorXd coordinate(const GroupData& data, int axis);
+
+/// Gaussian process regression of one group; times from the origin.
+class Regression {
+ public:
+  Regression(const GaitKernel& kernel, GroupData group_data);
+
+  const std::vector<Sample>& samples() const { return data_.samples; }
+  Eigen::Vector2d place(double time_s, int left) const;
+  Estimate at(double time_s, int left) const;
+
+  /// Sample i minus what the regression makes of it.
+  Eigen::Vector2d residual_px(std::size_t i) const;
+
+ private:
+  Eigen::VectorXd with_samples(const Covariance& function, double time_s, int left) const;
+
+  GroupData data_;
+  std::array<Covariance, 2> covariance_;
+  std::array<Eigen::LLT<Eigen::MatrixXd>, 2> factor_;
+  std::array<Eigen::VectorXd, 2> weights_;
+};
+
+}  // namespace stride
