@@ -14,25 +14,18 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kMostFitted = 40;  // clicks of a part that the kernels are fitted to
 
-/// Every sample relative to the pelvis at its time.
-std::vector<Sample> relative(std::vector<Sample> samples, const std::vector<Vector2d>& pelvis_px) {
-  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].p_px -= pelvis_px[i];
-  return samples;
-}
-
 std::vector<Sample> with_noise(std::vector<Sample> samples, double noise_px) {
   for (Sample& s : samples) s.variance_px2.setConstant(noise_px * noise_px);
   return samples;
 }
 
-std::vector<Vector2d> pelvis_at(const Regression& pelvis, const std::vector<Sample>& samples) {
-  std::vector<Vector2d> points;
-  points.reserve(samples.size());
-  for (const Sample& s : samples) {
-    points.push_back(pelvis.at(s.time_s, 0).p_px);
-    if (s.is_way()) points.back() -= pelvis.at(s.since_s, 0).p_px;
-  }
-  return points;
+/// Places relative to the pelvis at their times.
+std::vector<Sample> relative(std::vector<Sample> samples, const Regression& pelvis) {
+  std::vector<double> times_s;
+  for (const Sample& s : samples) times_s.push_back(s.time_s);
+  const std::vector<Vector2d> pelvis_px = pelvis.places(times_s, 0);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].p_px -= pelvis_px[i];
+  return samples;
 }
 
 std::vector<GroupData> leg_data(const Observations& clicks, double origin_s,
@@ -41,8 +34,7 @@ std::vector<GroupData> leg_data(const Observations& clicks, double origin_s,
   for (const Group& group : kLegGroups) {
     if (groups.size() == 2) break;  // knees and ankles say enough
     const auto samples = samples_of(group, clicks, origin_s);
-    if (samples.size() >= 4)
-      groups.push_back(centred(group, relative(samples, pelvis_at(pelvis, samples)), size_px));
+    if (samples.size() >= 4) groups.push_back(centred(group, relative(samples, pelvis), size_px));
   }
   return groups;
 }
@@ -79,6 +71,25 @@ double leg_size_px(const Observations& clicks) {
   return n > 0 ? std::max(std::sqrt(squared / n), 10.0) : 90;
 }
 
+/// +1 if the runner faces right, −1 left: knees bend forward. 0 if no whole leg was clicked.
+int facing(const Observations& clicks) {
+  const auto at = [&](BodyPart part, double time_s) -> const Vector2d* {
+    for (const Observation& o : clicks[index(part)])
+      if (o.time_s == time_s) return &o.p_px;
+    return nullptr;
+  };
+  double forward = 0;
+  for (const Observation& pelvis : clicks[index(BodyPart::pelvis)])
+    for (const auto& [knee_part, ankle_part] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
+                                                std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {
+      const Vector2d *knee = at(knee_part, pelvis.time_s), *ankle = at(ankle_part, pelvis.time_s);
+      if (knee == nullptr || ankle == nullptr) continue;
+      const Vector2d up = pelvis.p_px - *ankle, shank = *knee - *ankle;
+      forward += up.x() * shank.y() - up.y() * shank.x();
+    }
+  return (forward > 0) - (forward < 0);
+}
+
 }  // namespace
 
 GaitPrior fit_gait_prior(const Observations& all_clicks) {
@@ -103,7 +114,7 @@ GaitPrior fit_gait_prior(const Observations& all_clicks) {
   };
   auto legs = leg_data(clicks, prior.origin_s, pelvis_regression(), prior.size_px);
   if (legs.empty()) return prior;
-  Fitted fit = fitted(legs);
+  Fitted fit = fitted(legs, facing(clicks));
   prior.trunk = GaitKernel();
   prior.trunk.period_s = fit.kernel.period_s;
   const std::vector<GroupData> trunk{centred(kPelvis, pelvis, prior.size_px)};

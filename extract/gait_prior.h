@@ -55,10 +55,14 @@ struct GaitPrior {
 /// variances are ignored: the noise of a click is what is found.
 GaitPrior fit_gait_prior(const Observations& clicks);
 
+/// The prior with the period, near its own, under which the observations are most likely, ways
+/// included: what the picture shows between clicks tells periods apart that the clicks cannot.
+GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations);
+
 /// Each part at each time given the observations; pelvis first, the others relative to it. A part
-/// without observations has NaN.
+/// without observations has NaN. Variances cost most of the time; 0 without them.
 using Estimates = std::vector<std::array<Estimate, kBodyPartCount>>;
 Estimates estimate(const GaitPrior& prior, const Observations& observations,
-                   const std::vector<double>& times_s);
+                   const std::vector<double>& times_s, bool with_variance = true);
 
 }  // namespace stride

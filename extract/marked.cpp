@@ -16,16 +16,18 @@ Marked clicks_on(const fs::path& video, const fs::path& keypoints_file, double s
   Keypoints keypoints = load_keypoints(keypoints_file);
   check_belongs_to(keypoints, video);
   if (slow_motion > 0) keypoints.slow_motion = slow_motion;
-  Marked marked{marks_of(keypoints), video_times(video, keypoints.slow_motion)};
+  Marked marked{marks_of(keypoints), keypoints.slow_motion};
   marked.marks.video = video.filename().string();
   return marked;
 }
 
-Tracked track(const fs::path& video, const Marked& marked, const TrackOptions& options) {
-  Video frames(video);
-  return track(
-      marked.marks, marked.times.times_s, [&](VideoFrame& frame) { return frames.read(frame); },
-      options);
+Tracked track(const fs::path& video, const Marked& marked, const TrackOptions& options,
+              const WatchOptions& watch_options) {
+  Video frames(video, marked.slow_motion);
+  Footage footage = watch(
+      marked.marks, [&](VideoFrame& frame) { return frames.read(frame); }, watch_options);
+  footage.shortfall = frames.shortfall();
+  return track(marked.marks, footage, options);
 }
 
 }  // namespace stride

@@ -6,10 +6,10 @@
 
 namespace stride {
 
-/// What is marked on a video, and the times of the frames that the marks count.
+/// What is marked on a video.
 struct Marked {
   Trajectory marks;
-  VideoTimes times;
+  double slow_motion = 1;  // seconds of video a second of the runner
 };
 
 /// The clicks on a video, those that a killed `stride annotate` left in its journal included.
@@ -18,8 +18,8 @@ struct Marked {
 Marked clicks_on(const std::filesystem::path& video, const std::filesystem::path& keypoints_file,
                  double slow_motion);
 
-/// Follows the marks through the frames of their video.
+/// Follows the marks through the frames of their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const Marked& marked,
-              const TrackOptions& options = {});
+              const TrackOptions& options = {}, const WatchOptions& watch_options = {});
 
 }  // namespace stride

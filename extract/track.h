@@ -1,22 +1,19 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <vector>
+#include <string>
 
+#include "extract/footage.h"
 #include "extract/gait_prior.h"
 #include "extract/keypoints.h"
 #include "extract/trajectory.h"
-#include "extract/video.h"
 
 namespace stride {
 
 struct TrackOptions {
   bool flow = true;         // follow the picture between marks; otherwise the prior alone
-  bool camera = true;       // measure the motion of the background
   bool keep_marks = false;  // go exactly through every mark instead of averaging their noise out
   const Trajectory* prior = nullptr;  // a prediction in pixels, as from the fit of a body model
-  std::function<void(int frame, int last)> progress;  // called for each frame that was followed
 };
 
 struct TrackSummary {
@@ -24,6 +21,7 @@ struct TrackSummary {
   int marked_frames = 0;
   double believed = 0;  // share of the unmarked points where the flow was believed
   std::array<double, kBodyPartCount> miss_px{};  // rms by which the flow missed the next mark; NaN
+  std::string shortfall;                         // as Video::shortfall()
 };
 
 struct Tracked {
@@ -31,21 +29,17 @@ struct Tracked {
   TrackSummary summary;
 };
 
-/// Hands out the frames front to back, from frame 0 or at latest from the first marked one.
-using FrameSource = std::function<bool(VideoFrame&)>;
-
 /// Every part in every frame from the first mark to the last.
 ///
 /// `marks` has the marked frames only. Confidence of a mark: 1 clicked (the flow starts from it),
 /// 0.5 marked as hidden, any other a detector's (weighs less, and outliers are given up); a mark
-/// without a place but with a confidence says that the part is absent. `times_s[i]` is the time of
-/// frame i. Throws Error if there are no marks, no pelvis, or a mark beyond the last frame.
+/// without a place but with a confidence says that the part is absent. Throws Error if there are no
+/// marks, no pelvis, or a mark beyond the last frame.
 ///
 /// In the result a clicked point has confidence 1. Between clicks it is above 0.3 where the flow
 /// was believed, the more the better it led back and agreed with the rest; at most 0.3, and the
 /// less the less certain the prior is, where only the prior speaks.
-Tracked track(const Trajectory& marks, const std::vector<double>& times_s,
-              const FrameSource& frames, const TrackOptions& options = {});
+Tracked track(const Trajectory& marks, const Footage& footage, const TrackOptions& options = {});
 
 /// The clicks inside the trim range as marks.
 Trajectory marks_of(const Keypoints& keypoints);
@@ -53,13 +47,5 @@ Trajectory marks_of(const Keypoints& keypoints);
 /// "right" or "left": the way the runner faces, because knees bend forward; empty if no leg was
 /// seen.
 std::string facing(const Trajectory& points);
-
-/// Times of all frames that can be decoded, and what the file is.
-struct VideoTimes {
-  VideoInfo info;
-  std::vector<double> times_s;
-  std::string shortfall;  // as Video::shortfall()
-};
-VideoTimes video_times(const std::filesystem::path& video, double slow_motion);
 
 }  // namespace stride

@@ -62,17 +62,18 @@ Trajectory with_legs_repaired(const Trajectory& marks) {
 /// The points of another program on the frames of the video.
 Marked imported(const Request& request) {
   Marked marked;
-  marked.times = video_times(request.video, request.slow_motion > 0 ? request.slow_motion : 1);
+  if (request.slow_motion > 0) marked.slow_motion = request.slow_motion;
+  const VideoTimes times = video_times(request.video, marked.slow_motion);
   ImportOptions options = request.import;
-  if (options.rate_hz == 0) options.rate_hz = marked.times.info.rate_hz;
+  if (options.rate_hz == 0) options.rate_hz = times.info.rate_hz;
   const Detections detections = import_points(request.import_from, options);
   fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n", request.import_from.string(),
              detections.frames.size(), detections.format, detections.person,
              detections.people.size());
-  marked.marks = marks_of(detections, marked.times);
+  marked.marks = marks_of(detections, times);
   marked.marks.video_sha256 = sha256_of_file(request.video);
-  marked.marks.width_px = marked.times.info.width_px;
-  marked.marks.height_px = marked.times.info.height_px;
+  marked.marks.width_px = times.info.width_px;
+  marked.marks.height_px = times.info.height_px;
   if (request.repair_legs && !are_labels(marked.marks))
     marked.marks = with_legs_repaired(marked.marks);
   marked.marks.direction = facing(marked.marks);
@@ -86,7 +87,7 @@ Marked clicked(const Request& request) {
   return clicks_on(request.video, file, request.slow_motion);
 }
 
-void report(const Tracked& tracked, const VideoTimes& times) {
+void report(const Tracked& tracked) {
   const GaitKernel& legs = tracked.summary.prior.legs;
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
@@ -105,7 +106,8 @@ void report(const Tracked& tracked, const VideoTimes& times) {
     fmt::print(stderr, "background followed on {} of {} frames, corners agree within {:.2f} px{}\n",
                residuals.size(), t.frames.size(), residuals[residuals.size() / 2],
                t.treadmill.value_or(false) ? "; the runner stays in place: a treadmill" : "");
-  if (!times.shortfall.empty()) fmt::print(stderr, "warning: {}\n", times.shortfall);
+  if (const std::string& shortfall = tracked.summary.shortfall; !shortfall.empty())
+    fmt::print(stderr, "warning: {}\n", shortfall);
 }
 
 void run(Request request) {
@@ -117,9 +119,11 @@ void run(Request request) {
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
-  request.track.progress = show_progress;
-  const Tracked tracked = track(request.video, marked, request.track);
-  report(tracked, marked.times);
+  WatchOptions watching;
+  watching.progress = show_progress;
+  watching.sights = request.track.flow;
+  const Tracked tracked = track(request.video, marked, request.track, watching);
+  report(tracked);
 
   if (!request.overlay.empty()) {
     write_overlay(request.video, tracked.trajectory, request.overlay);

@@ -50,7 +50,7 @@ Vector2d normal_pair(std::mt19937_64& random) {
 }
 
 Trajectory clicks_on(const Trajectory& truth, int first, int spacing, double noise_px,
-                    unsigned seed) {
+                     unsigned seed) {
   std::mt19937_64 random(seed);
   Trajectory clicks = truth;
   clicks.frames.clear();
@@ -114,19 +114,21 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
   std::vector<TrackScore> scores;
   for (const double noise_px : options.noises_px)
     for (const int spacing : options.spacings) {
-      const Trajectory clicks =
-          clicks_on(truth, options.first_frame, spacing, noise_px, options.seed + static_cast<unsigned>(spacing));
+      const Trajectory clicks = clicks_on(truth, options.first_frame, spacing, noise_px,
+                                          options.seed + static_cast<unsigned>(spacing));
+      std::size_t next = 0;
+      const FrameSource source = [&](VideoFrame& frame) {
+        if (next == frames.size()) return false;
+        frame = frames[next++];
+        return true;
+      };
+      WatchOptions watching;
+      watching.camera = false;
+      const Footage footage = watch(clicks, source, watching);
       const auto tracked = [&](bool flow) {
-        std::size_t next = 0;
-        const FrameSource source = [&](VideoFrame& frame) {
-          if (next == frames.size()) return false;
-          frame = frames[next++];
-          return true;
-        };
         TrackOptions track_options;
         track_options.flow = flow;
-        track_options.camera = false;
-        return track(clicks, times.times_s, source, track_options);
+        return track(clicks, footage, track_options);
       };
       const int last = clicks.frames.back().frame;
       const Tracked result = tracked(true);

@@ -147,4 +147,13 @@ std::string Video::shortfall() const {
       d.info.file.string(), d.frames_read, d.info.announced_frames);
 }
 
+VideoTimes video_times(const std::filesystem::path& file, double slow_motion) {
+  Video video(file, slow_motion);
+  VideoTimes times{video.info(), {}, {}};
+  VideoFrame frame;
+  while (video.read(frame)) times.times_s.push_back(frame.time_s);
+  times.shortfall = video.shortfall();
+  return times;
+}
+
 }  // namespace stride

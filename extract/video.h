@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 namespace stride {
 
@@ -48,5 +49,13 @@ class Video {
   struct Decoder;
   std::unique_ptr<Decoder> decoder_;
 };
+
+/// Times of all frames that can be decoded, and what the file is.
+struct VideoTimes {
+  VideoInfo info;
+  std::vector<double> times_s;
+  std::string shortfall;  // as Video::shortfall()
+};
+VideoTimes video_times(const std::filesystem::path& video, double slow_motion);
 
 }  // namespace stride

@@ -59,14 +59,14 @@ std::optional<Prediction> predict(const Keypoints& keypoints, FrameStore& frames
     ++next;
     return true;
   };
-  TrackOptions options;
+  WatchOptions options;
   options.progress = [&](int, int) {
     if (given_up) throw GivenUp();
   };
   try {
     const Trajectory marks = marks_of(keypoints);
     prediction.suspects = suspected_swaps(marks);
-    const Tracked tracked = track(marks, times_s, source, options);
+    const Tracked tracked = track(marks, watch(marks, source, options));
     prediction.trajectory = tracked.trajectory;
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);

@@ -12,22 +12,32 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kMostTogether = 250;  // observations of a part in one regression
 
-/// Places of the pelvis, each computed once.
+/// Places of the pelvis at given times and at those of all observations.
 class PelvisPath {
  public:
-  explicit PelvisPath(const Regression& regression) : regression_(regression) {}
-  Vector2d operator()(double time_s) {
-    const auto [entry, is_new] = known_.try_emplace(time_s);
-    if (is_new) entry->second = regression_.place(time_s, 0);
-    return entry->second;
+  PelvisPath(const Regression& pelvis, const Observations& observations, double origin_s,
+             const std::vector<double>& times_s = {}) {
+    for (const double time_s : times_s) known_[time_s];
+    for (const auto& part : observations)
+      for (const Observation& o : part) {
+        known_[o.time_s - origin_s];
+        if (o.is_way()) known_[o.since_s - origin_s];
+      }
+    std::vector<double> all_s;
+    for (const auto& [time_s, place] : known_) all_s.push_back(time_s);
+    const std::vector<Vector2d> places = pelvis.places(all_s, 0);
+    auto place = places.begin();
+    for (auto& [time_s, known] : known_) known = *place++;
   }
+
+  const Vector2d& operator()(double time_s) const { return known_.at(time_s); }
+
   /// The part of a sample that is the pelvis'.
-  Vector2d share_of(const Sample& s) {
+  Vector2d share_of(const Sample& s) const {
     return s.is_way() ? Vector2d((*this)(s.time_s) - (*this)(s.since_s)) : (*this)(s.time_s);
   }
 
  private:
-  const Regression& regression_;
   std::map<double, Vector2d> known_;
 };
 
@@ -61,7 +71,7 @@ class Pool {
 };
 
 std::optional<Regression> leg_regression(const Group& group, const GaitKernel& kernel,
-                                         std::vector<Sample> samples, PelvisPath& pelvis,
+                                         std::vector<Sample> samples, const PelvisPath& pelvis,
                                          double size_px) {
   if (samples.empty()) return std::nullopt;
   for (Sample& s : samples) s.p_px -= pelvis.share_of(s);
@@ -69,7 +79,7 @@ std::optional<Regression> leg_regression(const Group& group, const GaitKernel& k
 }
 
 Estimates estimate_together(const GaitPrior& prior, const Observations& observations,
-                            const std::vector<double>& times_s) {
+                            const std::vector<double>& times_s, bool with_variance) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Estimate absent;
   absent.p_px.setConstant(kNan);
@@ -84,7 +94,7 @@ Estimates estimate_together(const GaitPrior& prior, const Observations& observat
   {
     // What the legs leave unexplained is the pelvis' too: one round of backfitting the sum of both
     // (a second one changes nothing that could be measured).
-    PelvisPath path(pelvis);
+    const PelvisPath path(pelvis, observations, prior.origin_s);
     Pool pool;
     for (const Sample& s : pelvis_samples) pool.add(s, s.p_px);
     for (const Group& group : kLegGroups) {
@@ -99,20 +109,31 @@ Estimates estimate_together(const GaitPrior& prior, const Observations& observat
     pelvis = Regression(prior.trunk, centred(kPelvis, pool.samples(), prior.size_px));
   }
 
-  PelvisPath path(pelvis);
+  std::vector<double> own_s;  // from the origin
+  for (const double time_s : times_s) own_s.push_back(time_s - prior.origin_s);
+  const PelvisPath path(pelvis, observations, prior.origin_s);
+  const auto of = [&](const Regression& regression, int left) {
+    if (with_variance) return regression.estimates(own_s, left);
+    std::vector<Estimate> result;
+    for (const Vector2d& place : regression.places(own_s, left))
+      result.push_back({place, Vector2d::Zero()});
+    return result;
+  };
+  const std::vector<Estimate> pelvis_estimates = of(pelvis, 0);
   for (std::size_t i = 0; i < times_s.size(); ++i)
-    estimates[i][index(BodyPart::pelvis)] = pelvis.at(times_s[i] - prior.origin_s, 0);
+    estimates[i][index(BodyPart::pelvis)] = pelvis_estimates[i];
   const auto add = [&](const Group& group, const GaitKernel& kernel) {
     const auto legs = leg_regression(group, kernel, samples_of(group, observations, prior.origin_s),
                                      path, prior.size_px);
     if (!legs) return;
-    for (std::size_t i = 0; i < times_s.size(); ++i)
-      for (int left = 0; left <= (group.paired() ? 1 : 0); ++left) {
-        Estimate estimate = legs->at(times_s[i] - prior.origin_s, left);
-        estimate.p_px += estimates[i][index(BodyPart::pelvis)].p_px;
-        estimate.variance_px2 += estimates[i][index(BodyPart::pelvis)].variance_px2;
-        estimates[i][index(left ? group.left : group.right)] = estimate;
+    for (int left = 0; left <= (group.paired() ? 1 : 0); ++left) {
+      const std::vector<Estimate> relative = of(*legs, left);
+      for (std::size_t i = 0; i < times_s.size(); ++i) {
+        Estimate& estimate = estimates[i][index(left ? group.left : group.right)];
+        estimate.p_px = pelvis_estimates[i].p_px + relative[i].p_px;
+        estimate.variance_px2 = pelvis_estimates[i].variance_px2 + relative[i].variance_px2;
       }
+    }
   };
   for (const Group& group : kLegGroups) add(group, prior.legs);
   add(kHead, prior.trunk);
@@ -128,13 +149,45 @@ Observations between(const Observations& observations, double from_s, double to_
   return some;
 }
 
+/// −log probability of knees and ankles about the pelvis, without constants.
+double surprise(const GaitPrior& prior, const Observations& observations) {
+  const Regression pelvis(
+      prior.trunk,
+      centred(kPelvis, samples_of(kPelvis, observations, prior.origin_s), prior.size_px));
+  const PelvisPath path(pelvis, observations, prior.origin_s);
+  double sum = 0;
+  for (const Group& group : {kLegGroups[0], kLegGroups[1]})
+    if (const auto legs =
+            leg_regression(group, prior.legs, samples_of(group, observations, prior.origin_s), path,
+                           prior.size_px))
+      sum += legs->surprise();
+  return sum;
+}
+
 }  // namespace
 
+GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations) {
+  GaitPrior best = prior;
+  double least = surprise(best, observations);
+  for (double step = 0.01; step > 0.0005; step /= 2)
+    for (const double factor : {1 + step, 1 / (1 + step)})
+      for (int move = 0; move < 4; ++move) {
+        GaitPrior next = best;
+        next.legs.period_s *= factor;
+        next.trunk.period_s *= factor;
+        const double cost = surprise(next, observations);
+        if (cost >= least) break;
+        least = cost;
+        best = next;
+      }
+  return best;
+}
+
 Estimates estimate(const GaitPrior& prior, const Observations& observations,
-                   const std::vector<double>& times_s) {
+                   const std::vector<double>& times_s, bool with_variance) {
   std::size_t most = 0;
   for (const auto& part : observations) most = std::max(most, part.size());
-  if (most <= kMostTogether) return estimate_together(prior, observations, times_s);
+  if (most <= kMostTogether) return estimate_together(prior, observations, times_s, with_variance);
 
   // Cubic cost: a long clip goes in windows of two strides that see three more on either side.
   const double window_s = 2 * prior.legs.period_s, margin_s = 3 * prior.legs.period_s;
@@ -146,7 +199,7 @@ Estimates estimate(const GaitPrior& prior, const Observations& observations,
                                      times_s.begin() + static_cast<long>(end));
     const Observations seen =
         between(observations, window.front() - margin_s, window.back() + margin_s);
-    const Estimates part = estimate_together(prior, seen, window);
+    const Estimates part = estimate_together(prior, seen, window, with_variance);
     estimates.insert(estimates.end(), part.begin(), part.end());
     i = end;
   }

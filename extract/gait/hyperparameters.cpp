@@ -75,6 +75,30 @@ double median_spacing_s(const std::vector<Sample>& samples) {
   return *middle;
 }
 
+/// −log probability that somebody who faces this way moves the feet so: they go back low and come
+/// forward high. A stride that is seen backwards goes round the other way.
+double backwards_cost(const GaitKernel& kernel, const std::vector<GroupData>& groups, int facing) {
+  constexpr int kPhases = 16;
+  constexpr double kCost = 15, kUsualArea = 0.1;  // area in units of the squared size of the motion
+  for (const GroupData& data : groups) {
+    if (facing == 0 || data.group.right != BodyPart::ankle_r) continue;
+    GroupData clicks = data;
+    for (Sample& s : clicks.samples) s.variance_px2.setConstant(std::pow(kernel.noise_px, 2));
+    const Regression regression(kernel, std::move(clicks));
+    std::vector<double> times_s;
+    for (int i = 0; i <= kPhases; ++i) times_s.push_back(kernel.period_s * i / kPhases);
+    double area = 0;
+    for (int left = 0; left < 2; ++left) {
+      const std::vector<Eigen::Vector2d> px = regression.places(times_s, left);
+      for (std::size_t i = 0; i < kPhases; ++i)
+        area += (px[i].x() * px[i + 1].y() - px[i].y() * px[i + 1].x()) / 4;
+    }
+    area /= data.scale_px.prod();
+    return kCost * std::clamp(-facing * area / kUsualArea, 0.0, 1.0);
+  }
+  return 0;
+}
+
 }  // namespace
 
 double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
@@ -112,7 +136,7 @@ Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
   return best;
 }
 
-Fitted fitted(const std::vector<GroupData>& groups) {
+Fitted fitted(const std::vector<GroupData>& groups, int facing) {
   std::vector<Fitted> scan;
   const double shortest_s = std::clamp(1.6 * median_spacing_s(groups.front().samples), 0.4, 1.2);
   for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.015) {
@@ -125,14 +149,19 @@ Fitted fitted(const std::vector<GroupData>& groups) {
     if ((i == 0 || scan[i].cost <= scan[i - 1].cost) &&
         (i + 1 == scan.size() || scan[i].cost < scan[i + 1].cost))
       peaks.push_back(scan[i]);
-  const auto cheaper = [](const Fitted& a, const Fitted& b) { return a.cost < b.cost; };
-  std::ranges::sort(peaks, cheaper);
-  if (peaks.size() > 6) peaks.resize(6);
+  const auto keep = [&](std::size_t most, auto&& cost_of) {
+    std::ranges::sort(peaks, {}, cost_of);
+    if (peaks.size() > most) peaks.resize(most);
+  };
+  const auto total = [&](const Fitted& peak) {
+    return peak.cost + backwards_cost(peak.kernel, groups, facing);
+  };
+  keep(6, [](const Fitted& peak) { return peak.cost; });
   for (Fitted& peak : peaks) peak = refined(peak, groups, 1);
-  std::ranges::sort(peaks, cheaper);
-  if (peaks.size() > 2) peaks.resize(2);
+  keep(2, total);
   for (Fitted& peak : peaks) peak = refined(peak, groups, 4);
-  return *std::ranges::min_element(peaks, cheaper);
+  keep(1, total);
+  return peaks.front();
 }
 
 }  // namespace stride

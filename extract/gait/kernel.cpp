@@ -1,48 +1,65 @@
 #include "extract/gait/kernel.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace stride {
+
+using Eigen::ArrayXd;
+
 namespace {
 
-double periodic(double lag_s, double period_s, double roughness) {
-  const double s = std::sin(std::numbers::pi * lag_s / period_s);
-  return std::exp(-2 * s * s / (roughness * roughness));
-}
+double square(double x) { return x * x; }
 
-double matern52(double lag, double length) {
-  const double a = std::sqrt(5.0) * std::abs(lag) / length;
-  return (1 + a + a * a / 3) * std::exp(-a);
+ArrayXd matern52(const ArrayXd& lag, double length) {
+  const ArrayXd a = std::sqrt(5.0) / length * lag.abs();
+  return (1 + a + a.square() / 3) * (-a).exp();
 }
 
 /// Covariance of the integral of Brownian motion started at time 0 in either direction: its
 /// regression curve is the cubic smoothing spline.
-double integrated_walk(double t, double u) {
-  if (t * u <= 0) return 0;
-  const double a = std::min(std::abs(t), std::abs(u)), b = std::max(std::abs(t), std::abs(u));
-  return a * a * (b / 2 - a / 6);
+ArrayXd integrated_walk(const ArrayXd& t, double u) {
+  const ArrayXd a = t.abs().min(std::abs(u)), b = t.abs().max(std::abs(u));
+  return (t * u > 0).select(a.square() * (b / 2 - a / 6), 0.0);
 }
 
 }  // namespace
 
-double Covariance::operator()(double t, int t_left, double u, int u_left) const {
-  const double lag = t - u, strides = lag / k.period_s;
-  const double coherence =
-      std::exp(-strides * strides / (2 * k.coherence_strides * k.coherence_strides));
-  const double asymmetric =
-      k.asymmetry * k.asymmetry * coherence * periodic(lag, k.period_s, k.roughness);
-  if (!paired)
-    return k.amplitude * k.amplitude *
-               (coherence * periodic(lag, k.period_s / 2, k.roughness) + asymmetric) +
-           drift * (k.residual * k.residual * integrated_walk(t / k.period_s, u / k.period_s) +
-                    10 * (1 + t * u / (k.period_s * k.period_s)));
-  double sum =
-      4 + coherence * periodic(lag + 0.5 * k.period_s * (t_left - u_left), k.period_s, k.roughness);
-  if (t_left == u_left)
-    sum += 0.5 + asymmetric + k.residual * k.residual * matern52(strides, k.residual_strides);
-  return sum;
+Eigen::MatrixXd Covariance::operator()(const Instants& a, const Instants& b) const {
+  // A stride that repeats: exp(−2 sin²(x/2) / ℓ²) = exp((cos x − 1) / ℓ²), x the lag in phase; the
+  // cosine of the difference from those of the instants.
+  const double per_s = 2 * std::numbers::pi / k.period_s, sharpness = 1 / square(k.roughness);
+  const ArrayXd strides = a.time_s / k.period_s, cos = (per_s * a.time_s).cos(),
+                sin = (per_s * a.time_s).sin();
+  Eigen::MatrixXd result(a.time_s.size(), b.time_s.size());
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const double u = b.time_s[j] / k.period_s, angle = per_s * b.time_s[j];
+    const ArrayXd lag = strides - u, cos_lag = std::cos(angle) * cos + std::sin(angle) * sin,
+                  forgotten = lag.square() / (2 * square(k.coherence_strides));
+    if (!paired) {
+      const ArrayXd cos_step_lag = 2 * cos_lag.square() - 1;
+      result.col(j) =
+          square(k.amplitude) *
+              (((cos_step_lag - 1) * sharpness - forgotten).exp() +
+               square(k.asymmetry) * ((cos_lag - 1) * sharpness - forgotten).exp()) +
+          drift * (square(k.residual) * integrated_walk(strides, u) + 10 * (1 + strides * u));
+      continue;
+    }
+    // The left leg is half a stride behind, where the cosine changes its sign.
+    const ArrayXd other_leg = (a.left - b.left[j]).abs();
+    const ArrayXd repeated = (((1 - 2 * other_leg) * cos_lag - 1) * sharpness - forgotten).exp();
+    result.col(j) = 4 + repeated +
+                    (1 - other_leg) * (0.5 + square(k.asymmetry) * repeated +
+                                       square(k.residual) * matern52(lag, k.residual_strides));
+  }
+  return result;
+}
+
+double Covariance::at(double time_s) const {
+  if (paired) return 5.5 + square(k.asymmetry) + square(k.residual);
+  const double t = time_s / k.period_s;
+  return square(k.amplitude) * (1 + square(k.asymmetry)) +
+         drift * (square(k.residual) * std::pow(std::abs(t), 3) / 3 + 10 * (1 + t * t));
 }
 
 }  // namespace stride

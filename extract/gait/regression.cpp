@@ -1,6 +1,7 @@
 #include "extract/gait/regression.h"
 
 #include <algorithm>
+#include <map>
 
 namespace stride {
 
@@ -10,24 +11,47 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Covariance of a place at a time with a sample.
-double covariance_with(const Covariance& c, double time_s, int left, const Sample& s) {
-  const double with_end = c(time_s, left, s.time_s, s.left);
-  return s.is_way() ? with_end - c(time_s, left, s.since_s, s.left) : with_end;
+/// The instants that samples begin and end at, each once: frames that follow one another share
+/// them.
+struct Ends {
+  Instants instants;
+  std::vector<Eigen::Index> end, begin;  // of each sample; begin −1: a place
+};
+Ends ends_of(const std::vector<Sample>& samples) {
+  Ends ends;
+  std::map<std::pair<int, double>, Eigen::Index> known;
+  const auto at = [&](const Sample& s, double time_s) {
+    return known.try_emplace({s.left, time_s}, static_cast<Eigen::Index>(known.size()))
+        .first->second;
+  };
+  for (const Sample& s : samples) {
+    ends.end.push_back(at(s, s.time_s));
+    ends.begin.push_back(s.is_way() ? at(s, s.since_s) : -1);
+  }
+  ends.instants.time_s.resize(static_cast<Eigen::Index>(known.size()));
+  ends.instants.left.resize(static_cast<Eigen::Index>(known.size()));
+  for (const auto& [instant, i] : known) {
+    ends.instants.left[i] = instant.first;
+    ends.instants.time_s[i] = instant.second;
+  }
+  return ends;
 }
 
-MatrixXd covariance_matrix(const Covariance& covariance, const std::vector<Sample>& samples) {
-  const auto n = static_cast<Eigen::Index>(samples.size());
-  MatrixXd matrix(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Sample& s = samples[i];
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      double c = covariance_with(covariance, s.time_s, s.left, samples[j]);
-      if (s.is_way()) c -= covariance_with(covariance, s.since_s, s.left, samples[j]);
-      matrix(i, j) = matrix(j, i) = c;
+/// From covariances with instants (rows) those with samples: a way is the difference of its ends.
+MatrixXd rows_of_samples(const MatrixXd& of_instants, const Ends& ends) {
+  MatrixXd result(static_cast<Eigen::Index>(ends.end.size()), of_instants.cols());
+  for (Eigen::Index j = 0; j < result.cols(); ++j)
+    for (Eigen::Index i = 0; i < result.rows(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      result(i, j) =
+          of_instants(ends.end[k], j) - (ends.begin[k] < 0 ? 0.0 : of_instants(ends.begin[k], j));
     }
-  }
-  return matrix;
+  return result;
+}
+
+MatrixXd covariance_matrix(const Covariance& covariance, const Ends& ends) {
+  const MatrixXd rows = rows_of_samples(covariance(ends.instants, ends.instants), ends);
+  return rows_of_samples(rows.transpose(), ends);
 }
 
 /// The covariance of each coordinate; the same for both unless the trunk drifts.
@@ -47,8 +71,9 @@ VectorXd coordinate(const GroupData& data, int axis) {
 
 std::array<MatrixXd, 2> covariance_matrices(const GaitKernel& kernel, const GroupData& data) {
   const auto [x, y] = covariances(kernel, data);
-  const MatrixXd first = covariance_matrix(x, data.samples);
-  return {first, data.group.paired() ? first : covariance_matrix(y, data.samples)};
+  const Ends ends = ends_of(data.samples);
+  const MatrixXd first = covariance_matrix(x, ends);
+  return {first, data.group.paired() ? first : covariance_matrix(y, ends)};
 }
 
 Regression::Regression(const GaitKernel& kernel, GroupData group_data)
@@ -64,28 +89,42 @@ Regression::Regression(const GaitKernel& kernel, GroupData group_data)
   }
 }
 
-Vector2d Regression::place(double time_s, int left) const {
-  Vector2d p_px;
-  VectorXd c;
+std::vector<Vector2d> Regression::places(const std::vector<double>& times_s, int left) const {
+  const auto with = with_samples(times_s, left);
+  std::vector<Vector2d> places(times_s.size());
   for (int axis = 0; axis < 2; ++axis) {
-    if (axis == 0 || !data_.group.paired()) c = with_samples(covariance_[axis], time_s, left);
-    p_px[axis] = data_.mean_px[axis] + data_.scale_px[axis] * c.dot(weights_[axis]);
+    const VectorXd y = with[axis].transpose() * weights_[axis];
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i][axis] =
+          data_.mean_px[axis] + data_.scale_px[axis] * y(static_cast<Eigen::Index>(i));
   }
-  return p_px;
+  return places;
 }
 
-Estimate Regression::at(double time_s, int left) const {
-  Estimate estimate;
-  VectorXd c;
+std::vector<Estimate> Regression::estimates(const std::vector<double>& times_s, int left) const {
+  const auto with = with_samples(times_s, left);
+  std::vector<Estimate> estimates(times_s.size());
   for (int axis = 0; axis < 2; ++axis) {
-    if (axis == 0 || !data_.group.paired()) c = with_samples(covariance_[axis], time_s, left);
+    const VectorXd y = with[axis].transpose() * weights_[axis];
+    const MatrixXd white = factor_[axis].matrixL().solve(with[axis]);
     const double scale = data_.scale_px[axis];
-    estimate.p_px[axis] = data_.mean_px[axis] + scale * c.dot(weights_[axis]);
-    const double own = covariance_[axis](time_s, left, time_s, left);
-    const VectorXd white = factor_[axis].matrixL().solve(c);
-    estimate.variance_px2[axis] = std::max(0.0, scale * scale * (own - white.squaredNorm()));
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const double known = white.col(column).squaredNorm();
+      estimates[i].p_px[axis] = data_.mean_px[axis] + scale * y(column);
+      estimates[i].variance_px2[axis] =
+          std::max(0.0, scale * scale * (covariance_[axis].at(times_s[i]) - known));
+    }
   }
-  return estimate;
+  return estimates;
+}
+
+double Regression::surprise() const {
+  double sum = 0;
+  for (int axis = 0; axis < 2; ++axis)
+    sum += 0.5 * coordinate(data_, axis).dot(weights_[axis]) +
+           factor_[axis].matrixLLT().diagonal().array().log().sum();
+  return sum;
 }
 
 Vector2d Regression::residual_px(std::size_t i) const {
@@ -96,11 +135,15 @@ Vector2d Regression::residual_px(std::size_t i) const {
   return residual;
 }
 
-VectorXd Regression::with_samples(const Covariance& function, double time_s, int left) const {
-  VectorXd c(static_cast<Eigen::Index>(data_.samples.size()));
-  for (Eigen::Index i = 0; i < c.size(); ++i)
-    c(i) = covariance_with(function, time_s, left, data_.samples[i]);
-  return c;
+std::array<MatrixXd, 2> Regression::with_samples(const std::vector<double>& times_s,
+                                                 int left) const {
+  const auto n = static_cast<Eigen::Index>(times_s.size());
+  const Instants at{Eigen::Map<const Eigen::ArrayXd>(times_s.data(), n),
+                    Eigen::ArrayXd::Constant(n, left)};
+  const Ends ends = ends_of(data_.samples);
+  const MatrixXd first = rows_of_samples(covariance_[0](ends.instants, at), ends);
+  return {first,
+          data_.group.paired() ? first : rows_of_samples(covariance_[1](ends.instants, at), ends)};
 }
 
 }  // namespace stride

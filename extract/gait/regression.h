@@ -24,14 +24,22 @@ class Regression {
   Regression(const GaitKernel& kernel, GroupData group_data);
 
   const std::vector<Sample>& samples() const { return data_.samples; }
-  Eigen::Vector2d place(double time_s, int left) const;
-  Estimate at(double time_s, int left) const;
+
+  /// Where the joint of one leg is at each time; `left` 0 or 1.
+  std::vector<Eigen::Vector2d> places(const std::vector<double>& times_s, int left) const;
+
+  /// The same with variances.
+  std::vector<Estimate> estimates(const std::vector<double>& times_s, int left) const;
+
+  /// −log of the probability of the samples, without constants.
+  double surprise() const;
 
   /// Sample i minus what the regression makes of it.
   Eigen::Vector2d residual_px(std::size_t i) const;
 
  private:
-  Eigen::VectorXd with_samples(const Covariance& function, double time_s, int left) const;
+  /// Covariance of the samples (rows) with places at times.
+  std::array<Eigen::MatrixXd, 2> with_samples(const std::vector<double>& times_s, int left) const;
 
   GroupData data_;
   std::array<Covariance, 2> covariance_;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPeriod_s = 0.7;
 
 /// A runner in closed form: the pelvis bobs every step before a panning camera, knees and ankles
-/// repeat every stride, the left half a stride behind.
+/// repeat every stride, the left half a stride behind. He faces right: feet go back low.
 Eigen::Vector2d place(BodyPart part, double t) {
   const double step = 4 * std::numbers::pi * t / kPeriod_s;
   const Eigen::Vector2d pelvis(300 + 12 * std::sin(1.3 * t), 180 + 6 * std::cos(step));
@@ -22,7 +22,7 @@ Eigen::Vector2d place(BodyPart part, double t) {
   if (part == BodyPart::knee_r || part == BodyPart::knee_l) return pelvis + knee;
   return pelvis + knee +
          Eigen::Vector2d(-20 + 25 * std::cos(phase) + 6 * std::sin(2 * phase),
-                         45 - 15 * std::sin(phase + 0.4));
+                         45 + 15 * std::sin(phase + 0.4));
 }
 
 Observations clicks(double spacing_s, double until_s) {
@@ -36,6 +36,22 @@ Observations clicks(double spacing_s, double until_s) {
 TEST(GaitPrior, FindsThePeriodOfTheStride) {
   for (const double spacing_s : {0.1, 0.133, 0.166, 0.2, 0.266})
     EXPECT_NEAR(fit_gait_prior(clicks(spacing_s, 3.2)).legs.period_s, kPeriod_s, 0.01) << spacing_s;
+}
+
+TEST(GaitPrior, TellsAStrideFromOneThatGoesBackwards) {
+  // Less than two clicks a stride: a stride of 0.741 s in reverse would be at the same places.
+  EXPECT_NEAR(fit_gait_prior(clicks(0.36, 5)).legs.period_s, kPeriod_s, 0.02);
+}
+
+TEST(GaitPrior, FindsInWaysThePeriodThatClicksCannotTell) {
+  Observations seen = clicks(0.34, 5);
+  GaitPrior prior = fit_gait_prior(seen);
+  for (const BodyPart part : kRequiredParts)
+    for (double t = 0.1; t < 4.7; t += 0.1)
+      seen[index(part)].push_back(
+          {t, place(part, t) - place(part, t - 0.03), Eigen::Vector2d::Constant(0.1), t - 0.03});
+  prior.legs.period_s = prior.trunk.period_s = 0.97 * kPeriod_s;
+  EXPECT_NEAR(with_period_of(prior, seen).legs.period_s, kPeriod_s, 0.002);
 }
 
 TEST(GaitPrior, FillsGapsFromOtherStridesAndTheOtherLeg) {

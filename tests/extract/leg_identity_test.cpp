@@ -3,66 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <random>
 
-#include "extract/table.h"
+#include "tests/support/spoiled_legs.h"
 
 namespace stride {
 namespace {
 
-/// The truth of the clip that ships with the project.
-Trajectory human() {
-  const Table table = load_csv(STRIDE_SOURCE_DIR "/videos/human.truth.csv");
-  Trajectory truth;
-  truth.video = "human.mp4";
-  for (const auto& row : table.rows) {
-    TrajectoryFrame& frame = truth.frames.emplace_back();
-    frame.frame = static_cast<int>(row[table.column("frame")]);
-    frame.time_s = row[table.column("time_s")];
-    for (const BodyPart part : kBodyParts) {
-      const std::string prefix(name(part));
-      if (part != BodyPart::head)
-        frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]}, 0.9};
-    }
-  }
+const Trajectory& human() {
+  static const Trajectory truth = detected(STRIDE_SOURCE_DIR "/videos/human.truth.csv");
   return truth;
-}
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-double normal(std::mt19937_64& random) {
-  double sum = -6;  // Irwin and Hall
-  for (int i = 0; i < 12; ++i) sum += uniform(random);
-  return sum;
-}
-
-struct Spoiled {
-  Trajectory points;
-  std::vector<bool> swapped;
-};
-
-/// 3 px noise, a tenth of the points missing, 5–30 % of the frames swapped, alone and in runs.
-Spoiled spoiled(const Trajectory& truth, unsigned seed) {
-  std::mt19937_64 random(seed);
-  Spoiled result{truth, std::vector<bool>(truth.frames.size())};
-  const double share = 0.05 + 0.25 * uniform(random);
-  const auto n = result.swapped.size();
-  while (std::count(result.swapped.begin(), result.swapped.end(), true) <
-         share * static_cast<double>(n)) {
-    const std::size_t length = uniform(random) < 0.5 ? 1 : 1 + random() % 8, at = random() % n;
-    for (std::size_t i = at; i < std::min(n, at + length); ++i) result.swapped[i] = true;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const BodyPart part : kBodyParts) {
-      Point& point = result.points.frames[i][part];
-      if (!point.present()) continue;
-      point.p_px += 3 * Eigen::Vector2d(normal(random), normal(random));
-      if (uniform(random) < 0.1) point = Point();
-    }
-    if (result.swapped[i]) swap_legs(result.points.frames[i]);
-  }
-  return result;
 }
 
 bool says_swapped(const LegIdentity& legs, int frame) {
@@ -75,10 +24,8 @@ TEST(LegIdentity, RepairsInjectedSwaps) {
   const Trajectory truth = human();
   int right = 0, frames = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
-    const Spoiled spoiled_clip = spoiled(truth, seed);
-    const LegIdentity legs = repair_legs(spoiled_clip.points);
-    for (std::size_t i = 0; i < truth.frames.size(); ++i, ++frames)
-      right += says_swapped(legs, truth.frames[i].frame) == spoiled_clip.swapped[i];
+    right += repaired(spoiled(truth, seed));
+    frames += static_cast<int>(truth.frames.size());
   }
   EXPECT_GE(right, 0.99 * frames) << right << " of " << frames;
 }
@@ -93,10 +40,8 @@ TEST(LegIdentity, RepairsARunToTheLeftWithFewPartsAtHalfTheRate) {
     }
   int right = 0, frames = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const Spoiled spoiled_clip = spoiled(truth, seed);
-    const LegIdentity legs = repair_legs(spoiled_clip.points);
-    for (std::size_t i = 0; i < truth.frames.size(); ++i, ++frames)
-      right += says_swapped(legs, truth.frames[i].frame) == spoiled_clip.swapped[i];
+    right += repaired(spoiled(truth, seed));
+    frames += static_cast<int>(truth.frames.size());
   }
   EXPECT_GE(right, 0.97 * frames) << right << " of " << frames;
 }

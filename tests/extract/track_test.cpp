@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "extract/marked.h"
 #include "extract/track_score.h"
 #include "tests/support/throws.h"
 
@@ -15,7 +16,7 @@ const std::filesystem::path kClicks = STRIDE_SOURCE_DIR "/videos/human.keypoints
 const std::filesystem::path kTruth = STRIDE_SOURCE_DIR "/videos/human.truth.csv";
 
 TEST(Track, BeatsTheSplineThroughTheSameClicks) {
-  for (const TrackScore& score : score_tracking(kVideo, kTruth, {{4, 8}, {0, 1.5}, 1})) {
+  for (const TrackScore& score : score_tracking(kVideo, kTruth, {{4, 8}, {0, 1.5}, 0, 1})) {
     EXPECT_GE(score.gain(), 1.8) << score.spacing_frames << " frames, " << score.noise_px << " px";
     EXPECT_LT(score.tracked_px, 3)
         << score.spacing_frames << " frames, " << score.noise_px << " px";
@@ -24,12 +25,11 @@ TEST(Track, BeatsTheSplineThroughTheSameClicks) {
 
 /// The shipped clip up to a frame, tracked from the shipped clicks.
 Tracked tracked(const TrackOptions& options, Keypoints keypoints = load_keypoints(kClicks),
-                int last = 40) {
-  keypoints.trim = FrameRange{3, last};
-  Video video(kVideo);
-  return track(
-      marks_of(keypoints), video_times(kVideo, 1).times_s,
-      [&](VideoFrame& frame) { return video.read(frame); }, options);
+                bool camera = false) {
+  keypoints.trim = FrameRange{3, 40};
+  WatchOptions watching;
+  watching.camera = camera;
+  return track(kVideo, {marks_of(keypoints)}, options, watching);
 }
 
 TEST(Track, CoversEveryFrameFromTheFirstMarkToTheLast) {
@@ -51,7 +51,6 @@ TEST(Track, CoversEveryFrameFromTheFirstMarkToTheLast) {
 TEST(Track, GoesThroughTheMarksIfItIsAskedTo) {
   const Keypoints keypoints = load_keypoints(kClicks);
   TrackOptions options;
-  options.camera = false;
   options.keep_marks = true;
   for (const TrajectoryFrame& frame : tracked(options).trajectory.frames) {
     const auto clicked = keypoints.frames.find(frame.frame);
@@ -72,7 +71,7 @@ TEST(Track, LeavesAPartOutWhereItWasSaidToBeAbsent) {
       absent.push_back(frame);
     }
   TrackOptions options;
-  options.flow = options.camera = false;
+  options.flow = false;
   for (const TrajectoryFrame& frame : tracked(options, keypoints).trajectory.frames)
     EXPECT_EQ(frame[BodyPart::toe_l].present(),
               frame.frame < absent.front() || frame.frame > absent.back())
@@ -80,7 +79,7 @@ TEST(Track, LeavesAPartOutWhereItWasSaidToBeAbsent) {
 }
 
 TEST(Track, SeesThatTheCameraFollowsTheRunner) {
-  const Trajectory result = tracked({}).trajectory;
+  const Trajectory result = tracked({}, load_keypoints(kClicks), true).trajectory;
   EXPECT_EQ(result.treadmill, false);
   for (std::size_t i = 1; i < result.frames.size(); ++i) {
     EXPECT_LT(result.frames[i].camera_px.x(), -3) << i;  // the background goes left
@@ -89,17 +88,17 @@ TEST(Track, SeesThatTheCameraFollowsTheRunner) {
 }
 
 TEST(Track, SaysWhatIsWrongWithTheMarks) {
-  const FrameSource nothing = [](VideoFrame&) { return false; };
+  const Footage two_frames{{0, 1}, 0, {}, {}, {}};
   Trajectory marks;
   marks.video = "a.mp4";
-  EXPECT_ERROR(track(marks, {0, 1}, nothing), "a.mp4: no points are marked");
+  EXPECT_ERROR(track(marks, two_frames), "a.mp4: no points are marked");
   marks.frames.resize(1);
   marks.frames[0].frame = 5;
-  EXPECT_ERROR(track(marks, {0, 1}, nothing),
+  EXPECT_ERROR(track(marks, two_frames),
                "a.mp4: frame 5 is marked, but only 2 frames could be decoded");
   marks.frames[0].frame = 1;
   marks.frames[0][BodyPart::knee_r] = {{1, 1}, 1};
-  EXPECT_ERROR(track(marks, {0, 1}, nothing), "a.mp4: the pelvis is marked on no frame");
+  EXPECT_ERROR(track(marks, two_frames), "a.mp4: the pelvis is marked on no frame");
 }
 
 TEST(Track, CarriesASingleMarkedFrame) {
@@ -107,8 +106,7 @@ TEST(Track, CarriesASingleMarkedFrame) {
   marks.frames.resize(1);
   marks.frames[0].frame = 1;
   marks.frames[0][BodyPart::pelvis] = {{10, 20}, 1};
-  const FrameSource nothing = [](VideoFrame&) { return false; };
-  const Trajectory result = track(marks, {0, 0.1}, nothing).trajectory;
+  const Trajectory result = track(marks, Footage{{0, 0.1}, 1, {}, {}, {}}).trajectory;
   ASSERT_EQ(result.frames.size(), 1u);
   EXPECT_LT((result.frames[0][BodyPart::pelvis].p_px - Eigen::Vector2d(10, 20)).norm(), 0.1);
 }

@@ -1,0 +1,34 @@
+#include <benchmark/benchmark.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include "extract/marked.h"
+
+namespace stride {
+namespace {
+
+/// From the file on disk to every part in every frame, on one core; `real_time`: seconds of video
+/// that are tracked in one.
+void track_clip(benchmark::State& state, const char* name, bool toes) {
+  cv::setNumThreads(1);
+  const std::filesystem::path video = fmt::format(STRIDE_SOURCE_DIR "/videos/{}.mp4", name);
+  Marked marked = clicks_on(video, keypoints_file_of(video), 0);
+  if (!toes)
+    for (TrajectoryFrame& frame : marked.marks.frames)
+      frame[BodyPart::toe_r] = frame[BodyPart::toe_l] = Point();
+  double seconds = 0;
+  for (auto _ : state) {
+    const Trajectory tracked = track(video, marked).trajectory;
+    seconds += static_cast<double>(tracked.frames.size()) / tracked.rate_hz;
+  }
+  state.counters["real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(track_clip, five_parts, "human", false)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(track_clip, seven_parts, "human", true)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
+}  // namespace
+}  // namespace stride
