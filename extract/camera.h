@@ -20,7 +20,7 @@ struct CameraStep {
 
 struct CameraOptions {
   int most_features = 80;
-  int width_px = 480;         // wider images are made smaller first
+  int width_px = 320;         // wider images are made smaller first
   double agreement_px = 1.5;  // RANSAC threshold
 };
 

@@ -19,15 +19,12 @@ double noise_px(const GaitPrior& prior, BodyPart part) {
   return trunk ? prior.trunk.noise_px : prior.legs.noise_px;
 }
 
-/// The steps of a stretch where the flow was believed, from either side. `part_variance`: of the
-/// flow over a stretch of this part; `click_variance`: of a mark that it is measured against.
-void read_stretch(const FlowStretch& s, double part_variance, double click_variance,
-                  std::vector<Reading>& readings) {
+/// The steps of a stretch where the flow was believed, from either side.
+void read_stretch(const FlowStretch& s, double part_miss, std::vector<Reading>& readings) {
   const int length = s.last - s.first;
-  const double own_miss = (s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm()) / 4,
-               own_variance = std::max(0.0, own_miss - 2 * click_variance);
+  const double own_miss = (s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm()) / 4;
   // The steps of a stretch share their error: as much again as if they were independent, and more.
-  const double step_variance = kLeastStepVariance + 2 * (part_variance + own_variance) / length;
+  const double step_variance = kLeastStepVariance + 2 * (part_miss + own_miss) / length;
   for (int i = 0; i < length; ++i) {
     const FlowStep &a = s.forward[static_cast<std::size_t>(i)],
                    &b = s.backward[static_cast<std::size_t>(i)];
@@ -114,15 +111,11 @@ double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart par
   return n > 0 ? sum / n : kNan;
 }
 
-void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches,
-              const GaitPrior& prior) {
+void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches) {
   for (const BodyPart part : kBodyParts) {
-    // A miss is the flow's error and those of the two marks.
-    const double click_variance = std::pow(noise_px(prior, part), 2);
-    const double part_variance =
-        std::max(0.0, mean_squared_miss(stretches, part) - 2 * click_variance);
+    const double miss = mean_squared_miss(stretches, part);
     for (const FlowStretch& stretch : stretches)
-      if (stretch.part == part) read_stretch(stretch, part_variance, click_variance, readings);
+      if (stretch.part == part) read_stretch(stretch, miss, readings);
   }
 }
 

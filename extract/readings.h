@@ -42,8 +42,7 @@ void add_prediction(std::vector<Reading>& readings, const Trajectory& prediction
 double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart part);
 
 /// Adds the steps where the flow was believed, from either side.
-void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches,
-              const GaitPrior& prior);
+void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches);
 
 /// Takes weight from readings that disagree with the estimates (Student's t by reweighting);
 /// `estimates[0]` is of `first_frame`.

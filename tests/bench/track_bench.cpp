@@ -1,6 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core/utility.hpp>
+#include <string>
 
 #include "extract/marked.h"
 
@@ -11,7 +12,7 @@ namespace {
 /// that are tracked in one.
 void track_clip(benchmark::State& state, const char* name, bool toes) {
   cv::setNumThreads(1);
-  const std::filesystem::path video = fmt::format(STRIDE_SOURCE_DIR "/videos/{}.mp4", name);
+  const std::filesystem::path video = STRIDE_SOURCE_DIR "/videos/" + std::string(name) + ".mp4";
   Marked marked = clicks_on(video, keypoints_file_of(video), 0);
   if (!toes)
     for (TrajectoryFrame& frame : marked.marks.frames)

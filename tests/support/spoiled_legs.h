@@ -54,7 +54,7 @@ inline Spoiled spoiled(const Trajectory& truth, unsigned seed) {
     for (const BodyPart part : kBodyParts) {
       Point& point = result.points.frames[i][part];
       if (!point.present()) continue;
-      const double x = normal(), y = normal();
+      const double y = normal(), x = normal();
       point.p_px += 3 * Eigen::Vector2d(x, y);
       if (uniform() < 0.1) point = Point();
     }
