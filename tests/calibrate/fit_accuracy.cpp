@@ -28,7 +28,7 @@ Trajectory tracked(const videos::Clip& clip, unsigned seed) {
   videos::Clip clicked = clip;
   clicked.click_seed = seed;
   const Keypoints clicks = videos::clicks(clicked);
-  return track(video, {marks_of(clicks), video_times(video, clicks.slow_motion)}).trajectory;
+  return track(video, {marks_of(clicks), clicks.slow_motion}).trajectory;
 }
 
 /// Mean, and greatest size, of a number of every fit.
