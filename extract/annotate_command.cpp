@@ -14,7 +14,8 @@
 #include "extract/commands.h"
 #include "extract/error.h"
 #include "extract/file.h"
-#include "extract/import.h"
+#include "extract/marked.h"
+#include "extract/pose.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -27,7 +28,8 @@ struct Request {
   std::vector<int> window{1280, 860};
   AnnotationOptions session;
   ImportOptions import;
-  bool keys = false;
+  PoseOptions pose;
+  bool repair_legs = true, keys = false;
 };
 
 /// Qt aborts the whole program where it cannot reach a display; a child of ours tries it first.
@@ -58,14 +60,22 @@ Keypoints fresh_keypoints(const fs::path& video, const VideoInfo& info) {
   return keypoints;
 }
 
-/// Another program's points become clicks, where there are none: one step for undo.
+/// The points of another program or of a pose model become clicks, where there are none: one step
+/// for undo.
 void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal& journal) {
+  const bool by_model = !request.pose.model.empty();
+  const fs::path& from = by_model ? request.pose.model : request.import_from;
+  require(!by_model || request.import_from.empty(), "--import {} and --pose {}: give one of them",
+          request.import_from.string(), from.string());
   ImportOptions options = request.import;
   if (options.rate_hz == 0) options.rate_hz = frames.info().rate_hz;
-  const Detections detections = import_points(request.import_from, options);
+  const Detections detections =
+      by_model ? pose_points(request.video, request.pose, options) : import_points(from, options);
   frames.wait();
-  Change change{fmt::format("points of {}", request.import_from.filename().string()), {}, {}};
-  for (const ImportedFrame& imported : detections.frames) {
+  const Marked marked =
+      points_on(request.video, detections, video_times(request.video, 1), 1, request.repair_legs);
+  Change change{fmt::format("points of {}", from.filename().string()), {}, {}};
+  for (const TrajectoryFrame& imported : marked.marks.frames) {
     const int number = imported.frame;
     if (number >= frames.count() || journal.document().keypoints().frames.contains(number))
       continue;
@@ -81,7 +91,7 @@ void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal
                    ""}});
     }
   }
-  fmt::print(stderr, "{}: {} points of {} frames taken as clicks\n", request.import_from.string(),
+  fmt::print(stderr, "{}: {} points of {} frames taken as clicks\n", from.string(),
              change.clicks.size(), detections.frames.size());
   if (!change.clicks.empty()) journal.apply(std::move(change));
 }
@@ -183,7 +193,8 @@ void run(Request request) {
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
-  if (!request.import_from.empty()) import_clicks(request, frames, journal);
+  if (!request.import_from.empty() || !request.pose.model.empty())
+    import_clicks(request, frames, journal);
   BackgroundTracker tracker([&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
     return predict(keypoints, frames, given_up);
   });
@@ -220,6 +231,9 @@ void add_annotate_command(CLI::App& app) {
   command.add_option("--import", request->import_from,
                      "points of another program to correct: a file or a folder");
   add_import_options(command, request->import);
+  add_pose_options(command, request->pose);
+  command.add_flag("!--no-leg-repair", request->repair_legs,
+                   "leave right and left of imported points as they are");
   command.add_flag("--keys", request->keys, "print the table of keys and leave");
   command.callback([request] { run(*request); });
 }

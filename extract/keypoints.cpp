@@ -23,6 +23,9 @@ template <typename T>
 T value(const Json& object, const char* key, const std::string& what, const char* expected) {
   const auto found = object.find(key);
   require(found != object.end(), "{}: \"{}\" is missing: must be {}", what, key, expected);
+  if constexpr (std::is_same_v<T, int>)
+    require(found->is_number() && std::abs(found->template get<double>()) <= 1e9,
+            "{}: {} = {}: must be {}", what, key, found->dump(), expected);
   try {
     return found->template get<T>();
   } catch (const Json::exception&) {

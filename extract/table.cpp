@@ -11,15 +11,10 @@
 
 #include "extract/error.h"
 #include "extract/file.h"
+#include "extract/trimmed.h"
 
 namespace stride {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -56,7 +51,7 @@ Table parse(std::string_view content, const std::string& file) {
       if (table.format.empty() && table.columns.empty() && line.starts_with("stride ")) {
         const auto space = line.rfind(' ');
         const auto version = number(line.substr(space + 1));
-        require(space > 7 && version.has_value(),
+        require(space > 7 && version.has_value() && std::abs(*version) < 1e9,
                 "{}:{}: expected '# stride FORMAT VERSION', found '# {}'", file, line_number, line);
         table.format = trimmed(line.substr(7, space - 7));
         table.version = static_cast<int>(*version);

@@ -7,12 +7,11 @@
 #include <optional>
 
 #include "extract/commands.h"
+#include "extract/error.h"
 #include "extract/export.h"
-#include "extract/file.h"
-#include "extract/import.h"
-#include "extract/leg_identity.h"
 #include "extract/marked.h"
 #include "extract/overlay.h"
+#include "extract/pose.h"
 #include "extract/track_score.h"
 
 namespace stride {
@@ -25,6 +24,7 @@ struct Request {
   bool repair_legs = true;
   TrackOptions track;
   ImportOptions import;
+  PoseOptions pose;
 };
 
 /// A line on stderr that is rewritten, only where somebody watches.
@@ -33,52 +33,27 @@ void show_progress(int frame, int last) {
     fmt::print(stderr, "\rframe {} of {}{}", frame, last, frame == last ? "\n" : "");
 }
 
-Trajectory marks_of(const Detections& detections, const VideoTimes& times) {
-  Trajectory marks;
-  for (const ImportedFrame& imported : detections.frames) {
-    TrajectoryFrame& frame = marks.frames.emplace_back();
-    frame.frame = imported.frame;
-    frame.points = imported.points;
-    if (imported.frame < static_cast<int>(times.times_s.size()))
-      frame.time_s = times.times_s[static_cast<std::size_t>(imported.frame)];
-  }
-  return marks;
+bool is_detected(const Request& request) {
+  return !request.import_from.empty() || !request.pose.model.empty();
 }
 
-/// Labels of a person are far apart and right; a detector's points are on most frames.
-bool are_labels(const Trajectory& marks) {
-  const auto n = static_cast<int>(marks.frames.size());
-  return n < 2 || marks.frames.back().frame - marks.frames.front().frame >= 2 * (n - 1);
-}
-
-Trajectory with_legs_repaired(const Trajectory& marks) {
-  const LegIdentity legs = repair_legs(marks);
-  for (const LegSwap& swap : legs.swaps)
-    fmt::print(stderr, "legs swapped on frames {}–{}: {}\n", swap.first_frame, swap.last_frame,
-               swap.why);
-  return legs.repaired;
-}
-
-/// The points of another program on the frames of the video.
-Marked imported(const Request& request) {
-  Marked marked;
-  if (request.slow_motion > 0) marked.slow_motion = request.slow_motion;
-  const VideoTimes times = video_times(request.video, marked.slow_motion);
+/// The points of another program or of a pose model on the frames of the video.
+Marked detected(const Request& request) {
+  require(request.import_from.empty() || request.pose.model.empty(),
+          "--import {} and --pose {}: give one of them", request.import_from.string(),
+          request.pose.model.string());
+  const double slow_motion = request.slow_motion > 0 ? request.slow_motion : 1;
+  const VideoTimes times = video_times(request.video, slow_motion);
   ImportOptions options = request.import;
   if (options.rate_hz == 0) options.rate_hz = times.info.rate_hz;
-  const Detections detections = import_points(request.import_from, options);
-  fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n", request.import_from.string(),
+  const Detections detections = request.pose.model.empty()
+                                    ? import_points(request.import_from, options)
+                                    : pose_points(request.video, request.pose, options);
+  fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n",
+             (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
              detections.people.size());
-  marked.marks = marks_of(detections, times);
-  marked.marks.video_sha256 = sha256_of_file(request.video);
-  marked.marks.width_px = times.info.width_px;
-  marked.marks.height_px = times.info.height_px;
-  if (request.repair_legs && !are_labels(marked.marks))
-    marked.marks = with_legs_repaired(marked.marks);
-  marked.marks.direction = facing(marked.marks);
-  marked.marks.video = request.video.filename().string();
-  return marked;
+  return points_on(request.video, detections, times, slow_motion, request.repair_legs);
 }
 
 Marked clicked(const Request& request) {
@@ -115,7 +90,7 @@ void run(Request request) {
     fmt::print("{}", table_of(score_tracking(request.video, request.score)));
     return;
   }
-  const Marked marked = request.import_from.empty() ? clicked(request) : imported(request);
+  const Marked marked = is_detected(request) ? detected(request) : clicked(request);
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
@@ -153,6 +128,7 @@ void add_track_command(CLI::App& app) {
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
   add_import_options(command, request->import);
+  add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_option("-o,--out", request->out,

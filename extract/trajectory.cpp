@@ -13,6 +13,12 @@ namespace {
 
 constexpr int kVersion = 1;
 
+int whole(double value, const std::string& what) {
+  require(value >= 0 && value <= 1e9 && value == std::floor(value),
+          "{} = {}: must be a whole number, 0 or more", what, value);
+  return static_cast<int>(value);
+}
+
 }  // namespace
 
 Trajectory load_trajectory(const std::filesystem::path& file) {
@@ -23,8 +29,8 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   Trajectory trajectory;
   trajectory.video = table.meta("video");
   trajectory.video_sha256 = table.meta("video_sha256");
-  trajectory.width_px = static_cast<int>(table.meta_number("width_px"));
-  trajectory.height_px = static_cast<int>(table.meta_number("height_px"));
+  trajectory.width_px = whole(table.meta_number("width_px"), file.string() + ": width_px");
+  trajectory.height_px = whole(table.meta_number("height_px"), file.string() + ": height_px");
   trajectory.rate_hz = table.meta_number("rate_hz");
   trajectory.direction = table.meta("direction");
   if (table.has_meta("floor_roll_rad"))
@@ -36,10 +42,11 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   double previous_s = -std::numeric_limits<double>::infinity();
   for (const auto& row : table.rows) {
     TrajectoryFrame& frame = trajectory.frames.emplace_back();
-    frame.frame = static_cast<int>(row[frame_column]);
+    frame.frame = whole(row[frame_column], file.string() + ": frame");
     frame.time_s = row[time_column];
-    require(frame.time_s > previous_s, "{}: frame {}: time_s = {}: must grow from row to row",
-            file.string(), frame.frame, frame.time_s);
+    require(std::isfinite(frame.time_s) && frame.time_s > previous_s,
+            "{}: frame {}: time_s = {}: must grow from row to row", file.string(), frame.frame,
+            frame.time_s);
     previous_s = frame.time_s;
   }
   if (table.has_meta("treadmill")) trajectory.treadmill = table.meta("treadmill") == "true";

@@ -14,6 +14,12 @@ Eigen::Vector2d point_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>()};
 }
 
+int frame_of(const Json& json) {
+  const auto frame = json.get<double>();
+  require(frame >= 0 && frame <= 1e9, "frame {}: must not be negative or beyond 10⁹", frame);
+  return static_cast<int>(frame);
+}
+
 Json json_of(const std::optional<Click>& click) {
   if (!click) return nullptr;
   Json json{{"state", name(click->state)}, {"p_px", json_of(click->p_px)}};
@@ -29,6 +35,8 @@ std::optional<Click> click_of(const Json& json) {
   for (const ClickState s : {ClickState::seen, ClickState::estimated, ClickState::absent})
     if (state == name(s)) click.state = s;
   click.other_json = json.value("other", "");
+  require(click.other_json.empty() || Json::parse(click.other_json).is_object(),
+          "\"other\" = {}: must be an object", click.other_json);
   return click;
 }
 
@@ -51,7 +59,7 @@ ClipSettings settings_of(const Json& json) {
   s.notes = json.at("notes");
   if (json.contains("treadmill")) s.treadmill = json.at("treadmill").get<bool>();
   if (json.contains("trim"))
-    s.trim = {json.at("trim").at(0).get<int>(), json.at("trim").at(1).get<int>()};
+    s.trim = {frame_of(json.at("trim").at(0)), frame_of(json.at("trim").at(1))};
   if (json.contains("floor"))
     s.floor = {point_of(json.at("floor").at(0)), point_of(json.at("floor").at(1))};
   return s;
@@ -76,13 +84,15 @@ Change change_of(const std::string& line, const std::string& where) {
     Change change;
     change.what = json.at("what");
     for (const Json& edit : json.at("clicks"))
-      change.clicks.push_back({edit.at("frame"), edit.at("video_time_s"),
+      change.clicks.push_back({frame_of(edit.at("frame")), edit.at("video_time_s"),
                                body_part(edit.at("part").get<std::string>()),
                                click_of(edit.at("click"))});
     if (json.contains("settings")) change.settings = settings_of(json.at("settings"));
     return change;
   } catch (const Json::exception& error) {
     throw Error(fmt::format("{}: not a line of an annotation journal ({})", where, error.what()));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", where, error.what()));
   }
 }
 

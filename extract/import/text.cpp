@@ -7,20 +7,16 @@
 #include <limits>
 
 #include "extract/error.h"
+#include "extract/trimmed.h"
 
 namespace stride {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \r") - first + 1);
-}
-
 /// Takes the first cell off `line`.
 std::string take_cell(std::string_view& line, char separator, bool& more) {
   std::string cell;
-  const auto start = line.find_first_not_of(' ');
+  // White space before a quote goes, but not a tab that ends an empty cell.
+  const auto start = line.find_first_not_of(separator == '\t' ? " " : " \t");
   if (start != std::string_view::npos && line[start] == '"') {
     line.remove_prefix(start + 1);
     while (!line.empty()) {

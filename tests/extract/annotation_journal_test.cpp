@@ -77,6 +77,9 @@ TEST(AnnotationDocument, ChangesSurviveTheirJson) {
   EXPECT_EQ(back.clicks[0].click->p_px.x(), 1.0 / 3);
   EXPECT_EQ(back.settings->trim->last, 9);
   EXPECT_ERROR(change_of("{\"what\":1}", "here"), "here: not a line of an annotation journal");
+  std::string damaged = line_of(change);
+  damaged.replace(damaged.find("\"frame\":3"), 9, "\"frame\":3e99");
+  EXPECT_ERROR(change_of(damaged, "here"), "here: frame 3e+99: must not be");
 }
 
 TEST(AnnotationJournal, FoldsWhenItCloses) {

@@ -31,6 +31,22 @@ TEST(Trajectory, ReadsBackWhatWasSaved) {
   EXPECT_EQ(loaded.frames[1].time_s, 1 / 29.97);
 }
 
+TEST(Trajectory, RefusesSizesAndFramesThatAreNoWholeNumbers) {
+  const TemporaryFolder folder;
+  const auto load = [&](const char* width, const char* row) {
+    write_file_atomically(
+        folder / "t.csv",
+        fmt::format("# stride trajectory 1\n# unit: px\n# video: a\n# video_sha256: 0\n# width_px: "
+                    "{}\n# height_px: 9\n# rate_hz: 30\n# direction: \nframe,time_s\n{}\n",
+                    width, row));
+    return load_trajectory(folder / "t.csv");
+  };
+  EXPECT_EQ(load("640", "3,0.1").frames[0].frame, 3);
+  EXPECT_ERROR(load("", "3,0.1"), "t.csv: width_px = nan: must be a whole number");
+  EXPECT_ERROR(load("640", ",0.1"), "t.csv: frame = nan: must be a whole number");
+  EXPECT_ERROR(load("640", "3,inf"), "frame 3: time_s = inf: must grow");
+}
+
 TEST(BodyPart, KnowsItsNamesAndMirrorImages) {
   for (const BodyPart part : kBodyParts) {
     EXPECT_EQ(body_part(name(part)), part);
