@@ -11,6 +11,7 @@
 #include "calibrate/report_frames.h"
 #include "extract/error.h"
 #include "extract/file.h"
+#include "extract/overlay.h"
 
 namespace stride {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommand {
-  fs::path trajectory, out, video, model = default_model_file();
+  fs::path trajectory, out, video, overlay, model = default_model_file();
   RunnerSize size;
   std::string direction;
   bool force = false, no_picture = false, mot = false;
@@ -58,6 +59,12 @@ void run(const CalibrateCommand& command) {
   if (result.fit.ok && !command.no_picture)
     draw_report(trajectory, model, result, video_of(command, trajectory),
                 beside.string() + ".report.svg");
+  if (result.fit.ok && !command.overlay.empty()) {
+    const fs::path video = video_of(command, trajectory);
+    require(!video.empty(), "--overlay: the video {} does not lie beside the trajectory: --video",
+            trajectory.video);
+    write_overlay(video, fitted_points(trajectory, model, result), command.overlay);
+  }
   require(!result.verdict.refused || (command.force && result.fit.ok),
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
           command.trajectory.string(), result.verdict.text());
@@ -77,6 +84,8 @@ void add_calibrate_commands(CLI::App& app) {
   calibrate->add_option(
       "--video", command->video,
       "draw the keyframes on its frames (default: the one beside the trajectory)");
+  calibrate->add_option("--overlay", command->overlay,
+                        "the video with the fitted runner on every frame, .mp4");
   calibrate->add_option("--model", command->model, "OpenSim model (.osim)");
   calibrate->add_option("--height", command->size.height_m, "standing height of the runner, m");
   calibrate->add_option("--leg", command->size.leg_m, "the runner's hip to ankle, m");

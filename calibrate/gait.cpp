@@ -67,8 +67,9 @@ void find_foot_strike(const StrideFit& fit, const HumanRunning& human, Gait& gai
 
 /// Height of the foot on the model, by phase after its own strike.
 struct FootPath {
-  std::vector<double> height_m;  // of the lowest point, above the lowest of the stride
-  double lowest_m = 0;           // below the mean height of the pelvis, negative
+  std::vector<double> height_m;            // of the lowest point, above the lowest of the stride
+  std::vector<double> toe_x_m, ankle_x_m;  // before the hips
+  double lowest_m = 0;                     // below the mean height of the pelvis, negative
 };
 
 FootPath foot_path(const StrideFit& fit, const SagittalModel& model, double foot_strike) {
@@ -79,15 +80,40 @@ FootPath foot_path(const StrideFit& fit, const SagittalModel& model, double foot
     const double tilt = evaluate_series(fit.runner.tilt.data(), 2, phase);
     const auto leg = place_leg(model, tilt, angles.hip, angles.knee, angles.ankle);
     path.height_m.push_back(lowest_point(model, leg) + to_model(fit, model) * fit.bounce(phase));
+    path.toe_x_m.push_back(leg.toe.x() - leg.hip.x());
+    path.ankle_x_m.push_back(leg.ankle.x() - leg.hip.x());
   }
   path.lowest_m = *std::ranges::min_element(path.height_m);
   for (double& height : path.height_m) height -= path.lowest_m;
   return path;
 }
 
-/// Toe off: the first time that the foot, having stood, is 3 cm above where it stood.
-double duty(const FootPath& path) {
+/// When the foot moves back under the runner, from farthest before the hips to farthest behind.
+struct Sweep {
+  double begin = 0, length = 0;  // phase after the strike; part of the stride
+};
+
+Sweep sweep(const FootPath& path) {
+  const auto at = [](auto it, const std::vector<double>& x_m) {
+    return static_cast<double>(it - x_m.begin()) / kPhases;
+  };
+  const double begin = at(std::ranges::max_element(path.ankle_x_m), path.ankle_x_m);
+  return {begin, fraction(at(std::ranges::min_element(path.toe_x_m), path.toe_x_m) - begin)};
+}
+
+/// A runner's pelvis is lowest while the foot is below it, as on a spring; a walker's is highest,
+/// as on a stilt. That holds for any size and frame rate.
+bool walks(const StrideFit& fit, const FootPath& path, double foot_strike) {
+  const Sweep foot = sweep(path);
+  const Eigen::Vector4d w = Bounce::weights(foot_strike + foot.begin + foot.length / 2);
+  return w.head<2>().dot(fit.bounce.c.head<2>()) > 0;
+}
+
+/// The part of the stride in which a foot stands. A runner's: until it, having stood, is 3 cm above
+/// where it stood. A walker, who swings it lower, moves it back as long as it stands.
+double duty(const FootPath& path, bool walks) {
   constexpr double kLifted = 0.03;
+  if (walks) return sweep(path).length;
   bool stood = false;
   for (int i = 0; i < kPhases * 9 / 10; ++i) {
     if (path.height_m[i] < 0.5 * kLifted) stood = true;
@@ -152,7 +178,8 @@ Gait analyse_gait(const StrideFit& fit, const SagittalModel& model) {
   Gait gait;
   find_foot_strike(fit, load_human_running(), gait);
   const FootPath path = foot_path(fit, model, gait.foot_strike);
-  gait.duty = duty(path);
+  gait.walks = walks(fit, path, gait.foot_strike);
+  gait.duty = duty(path, gait.walks);
   gait.pelvis_height_m = -path.lowest_m;
   gait.bounce_m = to_model(fit, model) * fit.bounce.peak_to_peak_m();
   // Heel strike and push-off turn the toe one way and the other: the mean over stance is nearer

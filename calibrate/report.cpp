@@ -20,18 +20,25 @@ std::string outside_band(const StrideFit& fit, const Gait& gait) {
   std::string text;
   const auto compare = [&](const char* joint, const auto& curve, const HumanRunning::Joint& band) {
     int outside = 0;
+    bool was_outside = false;
     double farthest = 0, where = 0;
+    std::string spans;
     for (int i = 0; i < 100; ++i) {
       const double phase = i / 100.0,
                    angle = evaluate_series(curve.data(), fit.harmonics, phase + gait.foot_strike);
       const double low = human.at(band.low, phase), high = human.at(band.high, phase);
       const double out = angle < low ? angle - low : angle > high ? angle - high : 0;
       outside += out != 0 ? 1 : 0;
+      if (out != 0 && !was_outside) spans += fmt::format("{}{}", spans.empty() ? "" : ", ", i);
+      if (out == 0 && was_outside) spans += fmt::format("-{}", i - 1);
+      was_outside = out != 0;
       if (std::abs(out) > std::abs(farthest)) farthest = out, where = phase;
     }
+    if (was_outside) spans += "-99";
     text += fmt::format("  {:<6} {:3} % of the stride outside", joint, outside);
     if (outside > 0)
-      text += fmt::format(", farthest {:+.0f} deg at {:.0f} %", farthest / kDegree, 100 * where);
+      text += fmt::format(" (at {} %), farthest {:+.0f} deg at {:.0f} %", spans, farthest / kDegree,
+                          100 * where);
     text += "\n";
   };
   compare("hip", r.hip, human.hip);
@@ -96,7 +103,12 @@ std::string report_text(const Trajectory& trajectory, const SagittalModel& model
   line("fit       {} harmonics, {:.2f} px rms ({:.1f} cm), {:.1f} % of the marks not believed",
        c.fit.harmonics, c.fit.rms_px, 100 * c.run.rms_m, 100 * c.fit.outlier_fraction);
   text += "marks\n" + residuals_by_part(c);
-  text += "angles against measured runners (3.8 to 4 m/s)\n" + outside_band(c.fit, c.gait);
+  text += "angles against measured runners at 3.8 to 4 m/s";
+  if (c.gait.walks)
+    text += " (this is walking)";
+  else if (c.run.speed_m_s < 3.6)
+    text += fmt::format(" ({:.1f} m/s: slower runners lift thigh and heel less)", c.run.speed_m_s);
+  text += "\n" + outside_band(c.fit, c.gait);
   return text;
 }
 

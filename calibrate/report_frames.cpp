@@ -93,6 +93,22 @@ void draw_runner(const Trajectory& trajectory, const Directions& directions, con
 
 }  // namespace
 
+Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& model,
+                         const Calibration& c) {
+  const Directions directions(model);
+  Trajectory fitted = trajectory;
+  for (std::size_t i = 0; i < fitted.frames.size(); ++i)
+    for (const BodyPart part : kBodyParts) {
+      const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
+      const bool known = toe ? c.fit.toes_seen : part != BodyPart::head || c.fit.head_seen;
+      const Eigen::Vector2d z =
+          predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
+      fitted.frames[i][part] =
+          known ? Point{image_px(trajectory, c.observations.to_left, z), 1} : Point{};
+    }
+  return fitted;
+}
+
 std::filesystem::path video_in(const std::filesystem::path& folder, const Trajectory& trajectory) {
   if (trajectory.video.empty()) return {};
   const auto file = folder / std::filesystem::path(trajectory.video).filename();

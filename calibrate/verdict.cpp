@@ -151,18 +151,17 @@ void judge_time(const StrideFit& fit, const Gait& gait, double strides, Verdict&
   else if (strides < 1.5)
     verdict.note(
         fmt::format("only {:.1f} strides are seen: nothing tells whether they repeat", strides));
-  const bool walks = gait.duty > 0.5;
-  if (walks)
+  if (gait.walks)
     verdict.note(
         fmt::format("this is walking: a foot stands for {:.0f} % of the stride", 100 * gait.duty));
-  const double shortest = walks ? 0.75 : 0.45, longest = walks ? 1.8 : 1.05;
+  const double shortest = gait.walks ? 0.75 : 0.45, longest = gait.walks ? 1.8 : 1.05;
   if (period < shortest || period > longest)
     verdict.note(
         fmt::format("a stride takes {:.2f} s, people's {} to {} s: is the frame rate or the "
                     "slow-motion factor right?",
                     period, shortest, longest));
   const double gravity = apparent_gravity(fit);
-  if (!walks && fit.bounce.peak_to_peak_m() > 0.02 && (gravity < 0.45 || gravity > 3))
+  if (!gait.walks && fit.bounce.peak_to_peak_m() > 0.02 && (gravity < 0.45 || gravity > 3))
     verdict.note(
         fmt::format("the runner falls with {:.1f} g: is the frame rate, the slow-motion factor "
                     "or the runner's size (--leg) right?",

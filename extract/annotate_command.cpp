@@ -10,6 +10,7 @@
 
 #include "extract/annotation/background_tracker.h"
 #include "extract/annotation/predict.h"
+#include "extract/annotation/qt_zoom.h"
 #include "extract/annotation/script.h"
 #include "extract/commands.h"
 #include "extract/error.h"
@@ -99,6 +100,7 @@ void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal
 /// What the mouse callback tells the loop below.
 struct Window {
   AnnotationSession& session;
+  QtZoom& qt_zoom;
   bool changed = true;
 };
 
@@ -124,6 +126,7 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
     case cv::EVENT_MOUSEWHEEL:
       event.kind = Kind::wheel;
       event.wheel = cv::getMouseWheelDelta(flags) > 0 ? 1 : -1;
+      window.qt_zoom.will_change();
       break;
     case cv::EVENT_MOUSEMOVE:
       event.kind = Kind::move;
@@ -142,8 +145,9 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
 void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameStore& frames) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
+  QtZoom qt_zoom(title);
   cv::namedWindow(title, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
-  Window window{session};
+  Window window{session, qt_zoom};
   cv::setMouseCallback(title, on_mouse, &window);
   int decoded = -1;
   auto last_event = Clock::now();
@@ -156,11 +160,13 @@ void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameSto
     if (!frames.complete() || decoded != frames.count()) window.changed = true;
     decoded = frames.count();
     if (window.changed) {
-      cv::imshow(title, session.picture());
+      qt_zoom.show(session.picture());
       window.changed = false;
       last_event = Clock::now();
     }
-    if (const int key = cv::waitKeyEx(15); key >= 0) {
+    const int key = cv::waitKeyEx(15);
+    qt_zoom.take_back();
+    if (key >= 0) {
       AnnotationEvent event;
       event.kind = AnnotationEvent::Kind::key;
       event.key = key;

@@ -237,9 +237,28 @@ void AnnotationSession::mark_floor(const Eigen::Vector2d& p_px) {
   edit_settings("floor line", settings);
 }
 
+std::optional<Eigen::Vector2d> AnnotationSession::pelvis_px(int frame) const {
+  const ClickedFrame* here = clicked(frame);
+  if (here && here->placed(BodyPart::pelvis)) return (*here)[BodyPart::pelvis]->p_px;
+  const TrajectoryFrame* tracked = predicted(frame);
+  if (tracked && (*tracked)[BodyPart::pelvis].present()) return (*tracked)[BodyPart::pelvis].p_px;
+  // After the last click the runner goes on as he came.
+  const auto& frames = keypoints().frames;
+  const auto last = frames.rbegin(), before = frames.size() < 2 ? frames.rend() : std::next(last);
+  if (before == frames.rend() || frame < last->first || !last->second.placed(BodyPart::pelvis) ||
+      !before->second.placed(BodyPart::pelvis))
+    return std::nullopt;
+  const Eigen::Vector2d p = last->second[BodyPart::pelvis]->p_px;
+  return p + (p - before->second[BodyPart::pelvis]->p_px) * (frame - last->first) /
+                 (last->first - before->first);
+}
+
 void AnnotationSession::go_to(int frame) {
   frame = std::clamp(frame, 0, std::max(frame_count() - 1, 0));
   if (frame == frame_) return;
+  // A view that shows a piece of the image goes with the runner.
+  const auto before = pelvis_px(frame_), after = pelvis_px(frame);
+  if (before && after) view_.pan(view_.scale * (*before - *after));
   frame_ = frame;
   tell("");
   ask_first_missing();

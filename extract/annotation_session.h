@@ -122,6 +122,7 @@ class AnnotationSession {
   std::optional<BodyPart> click_at(const Eigen::Vector2d& canvas) const;
   std::vector<BodyPart> order() const;
   double phase_step() const;
+  std::optional<Eigen::Vector2d> pelvis_px(int frame) const;  // as far as it can be told
   std::string near_leg() const;
 
   AnnotationJournal& journal_;

@@ -13,8 +13,8 @@
 namespace stride {
 namespace {
 
-constexpr int kLoupe = 208;  // side, canvas px
-constexpr double kLoupeScale = 8;
+constexpr int kLoupe = 208;        // side, canvas px
+constexpr double kLoupeScale = 8;  // of what the window shows, and at most of an image pixel
 
 }  // namespace
 
@@ -136,8 +136,9 @@ void AnnotationCanvas::draw_loupe() {
   const cv::Rect area = s_.view_.area;
   cv::Rect place(area.width - kLoupe - 10, area.y + 10, kLoupe, kLoupe);
   if (s_.mouse_.x() > place.x - 40 && s_.mouse_.y() < place.y + kLoupe + 40) place.x = 10;
-  View loupe{s_.view_.image_px, place, kLoupeScale, {}};
-  loupe.p0_px = s_.view_.to_image(s_.mouse_) - Eigen::Vector2d(kLoupe, kLoupe) / 2 / kLoupeScale;
+  const double scale = kLoupeScale * std::min(s_.view_.scale, 1.0);
+  View loupe{s_.view_.image_px, place, scale, {}};
+  loupe.p0_px = s_.view_.to_image(s_.mouse_) - Eigen::Vector2d(kLoupe, kLoupe) / 2 / scale;
   cv::Mat piece = loupe.piece_of(s_.shown_image());
   const Eigen::Vector2d centre(kLoupe / 2.0 - 0.5, kLoupe / 2.0 - 0.5);
   const ClickedFrame* here = s_.clicked(s_.frame_);

@@ -64,8 +64,10 @@ std::string AnnotationCanvas::what_a_click_does() const {
     return "This frame is complete   Space: next phase frame   drag a point to move it";
   const ClickedFrame* here = s_.clicked(s_.frame_);
   const bool again = here && (*here)[*s_.asked_];
-  return fmt::format("Click: {} {}   right click: hidden, estimated   x: absent{}",
+  const bool middle = *s_.asked_ == BodyPart::pelvis;
+  return fmt::format("Click: {} {}{}   right click: hidden, estimated   x: absent{}",
                      again ? "again the" : "the", spoken(*s_.asked_, s_.near_leg()),
+                     middle ? " (midway between the hips)" : "",
                      s_.predicted(s_.frame_) ? "   Enter: take the ring" : "");
 }
 

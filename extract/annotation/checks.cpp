@@ -65,15 +65,19 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by) {
   std::optional<int> worst;
-  double least = 0.5;
+  constexpr double kBelieved = 0.3;  // at most that: only the prior speaks
+  double least = 1;
   for (const TrajectoryFrame& frame : prediction.frames) {
     const auto near = keypoints.frames.lower_bound(frame.frame - 2);
     if (near != keypoints.frames.end() && near->first <= frame.frame + 2) continue;
     if (std::ranges::find(passed_by, frame.frame) != passed_by.end()) continue;
-    double sum = 0;
-    for (const BodyPart part : parts) sum += frame[part].confidence;
+    double sum = 0, worst_part = 1;
+    for (const BodyPart part : parts) {
+      sum += frame[part].confidence;
+      worst_part = std::min(worst_part, frame[part].confidence);
+    }
     const double mean = sum / static_cast<double>(parts.size());
-    if (mean < least) {
+    if (worst_part <= kBelieved && mean < least) {
       least = mean;
       worst = frame.frame;
     }

@@ -24,7 +24,7 @@ std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int frame);
 std::vector<std::pair<BodyPart, BodyPart>> bones();
 
 /// The frame whose asked parts are known worst, none within two frames of a click or among
-/// `passed_by`. Nothing where the prediction is trusted everywhere (above 0.5).
+/// `passed_by`. Nothing where every part has been followed in the picture.
 std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by);

@@ -30,8 +30,10 @@ void AnnotationSession::advance(BodyPart after) {
   asked_ = next_missing(keypoints(), frame_, order(), after);
   if (asked_) return;
   const int next = next_phase_frame(keypoints(), frame_, phase_step());
-  const std::string complete = fmt::format("frame {} is complete", frame_);
+  std::string complete = fmt::format("frame {} is complete", frame_);
   if (next >= frame_count()) return tell(complete + "; the clip ends before the next phase frame");
+  if (prediction_.stride_frames == 0)
+    complete += fmt::format("; {} frames on by guess: - fewer, = more", next - frame_);
   go_to(next);
   tell(complete);
 }

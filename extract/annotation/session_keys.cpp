@@ -229,7 +229,7 @@ void AnnotationSession::step(Command command) {
       return go_to(next_phase_frame(keypoints(), frame_, phase_step()));
     case Command::next_worst: {
       const auto worst = worst_frame(prediction_.trajectory, keypoints(), order(), passed_by_);
-      if (!worst) return tell("the tracking is trusted everywhere else");
+      if (!worst) return tell("everything else has been followed in the picture");
       passed_by_.push_back(*worst);
       return go_to(*worst);
     }

@@ -77,6 +77,12 @@ TEST_F(Verdicts, TheWrongDirectionIsRefusedAndAnUnknownOneFound) {
   EXPECT_EQ(judge(t), "ok");
 }
 
+TEST_F(Verdicts, WalkingIsTold) {
+  const Trajectory walk =
+      load_trajectory(std::filesystem::path(STRIDE_SOURCE_DIR) / "videos/walk.truth.csv");
+  EXPECT_EQ(judge(walk), "ok, but this is walking: a foot stands for 66 % of the stride");
+}
+
 TEST_F(Verdicts, AWrongFrameRateIsTold) {
   Trajectory t = good();
   for (TrajectoryFrame& frame : t.frames) frame.time_s *= 2;

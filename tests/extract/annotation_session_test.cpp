@@ -267,20 +267,40 @@ TEST_F(Annotating, GoesToTheWorstFramesInTurnAndToSuspectedSwaps) {
     frame.frame = f;
     for (Point& point : frame.points)
       point = {{100, 100}, f == 60 ? 0.1 : f == 40 ? 0.2 : f == 1 ? 0 : 0.9};
+    if (f == 20) frame[BodyPart::toe_l].confidence = 0.3;
   }
   session->set_prediction(prediction);
   key('n');
   EXPECT_EQ(session->frame(), 60);
   key('n');
   EXPECT_EQ(session->frame(), 40);
-  key('n');  // frame 1 is beside a click
-  EXPECT_EQ(session->message(), "the tracking is trusted everywhere else");
+  key('n');
+  EXPECT_EQ(session->frame(), 20);  // by one part alone
+  key('n');                         // frame 1 is beside a click
+  EXPECT_EQ(session->message(), "everything else has been followed in the picture");
   key('f');
   EXPECT_EQ(session->frame(), 7);
   key('f');
   EXPECT_EQ(session->frame(), 10);
   key('f');
   EXPECT_EQ(session->frame(), 7);
+}
+
+TEST_F(Annotating, AZoomedViewGoesWithTheRunner) {
+  answer();
+  AnnotationEvent wheel;
+  wheel.kind = Kind::wheel;
+  wheel.p_canvas = {640, 340};
+  wheel.wheel = 1;
+  for (int turn = 0; turn < 4; ++turn) session->handle(wheel);
+  click(310, 180);
+  session->go_to(4);
+  click(330, 180);
+  const double there = canvas(330, 180).x();
+  session->go_to(0);
+  EXPECT_NEAR(canvas(310, 180).x(), there, 1e-9);
+  session->go_to(8);  // nothing is known of it: the runner goes on as he came
+  EXPECT_NEAR(canvas(350, 180).x(), there, 1e-9);
 }
 
 TEST_F(Annotating, TheTimelineIsClickable) {
