@@ -10,6 +10,8 @@
 namespace stride {
 namespace {
 
+constexpr double kBelieved = 0.3;  // confidence: at most that, only the tracker's prior speaks
+
 double median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -54,6 +56,12 @@ void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
     if (count < kLeastFrames || count * 4 < frames)
       verdict.refuse(fmt::format("{} is marked in {} of {} frames: a quarter is needed; mark it",
                                  name(part), count, frames));
+    else if (std::ranges::none_of(trajectory.frames, [&](const TrajectoryFrame& frame) {
+               return frame[part].present() && frame[part].confidence > kBelieved;
+             }))
+      verdict.refuse(fmt::format(
+          "{} is seen in no frame: what the other leg does tells nothing of it; mark it",
+          name(part)));
   }
 }
 
@@ -83,6 +91,29 @@ void judge_view(const Trajectory& trajectory, Verdict& verdict) {
                     100 * fore_aft / leg));
 }
 
+/// Whether the background moves here as in neither of the frames beside, by two fifths of a leg; or
+/// is lost.
+bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
+  const auto& frames = trajectory.frames;
+  if (!frames[i].camera_px.allFinite()) return true;
+  const auto leaps = [&](std::size_t j) {
+    return (frames[i].camera_px - frames[j].camera_px).norm() > 0.4 * leg_px;
+  };
+  return i >= 2 && i + 1 < frames.size() && leaps(i - 1) && leaps(i + 1);
+}
+
+/// Frames whose background has nothing to do with that of the frame before. Where there are many,
+/// it cannot be followed and says nothing.
+void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+  std::vector<int> changes;
+  for (std::size_t i = 1; i < trajectory.frames.size(); ++i)
+    if (scene_changes(trajectory, i, leg_px)) changes.push_back(trajectory.frames[i].frame);
+  if (changes.empty() || changes.size() > std::max<std::size_t>(1, trajectory.frames.size() / 50))
+    return;
+  verdict.note(fmt::format("the background changes at frame {}: a cut; trim the clip",
+                           fmt::join(changes, ", ")));
+}
+
 /// Jumps of the pelvis by more than half a leg between neighbouring frames.
 void judge_cuts(const Trajectory& trajectory, const Marks& observations, const StrideFit& fit,
                 double leg_px, Verdict& verdict) {
@@ -101,7 +132,6 @@ void judge_cuts(const Trajectory& trajectory, const Marks& observations, const S
 /// The longest time for which nothing is seen: no mark at all, or none in which the picture was
 /// believed.
 void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
-  constexpr double kBelieved = 0.3;     // as `stride track` writes it
   constexpr double kLongest = 1.0 / 3;  // of a stride
   const TrajectoryFrame* last = nullptr;
   std::array<const TrajectoryFrame*, 2> gap{};
@@ -160,6 +190,12 @@ void judge_time(const StrideFit& fit, const Gait& gait, double strides, Verdict&
         fmt::format("a stride takes {:.2f} s, people's {} to {} s: is the frame rate or the "
                     "slow-motion factor right?",
                     period, shortest, longest));
+  constexpr double kSprint_m_s = 8;
+  if (gait.speed_m_s > kSprint_m_s)
+    verdict.note(
+        fmt::format("{:.1f} m/s is a sprint: is the frame rate, the slow-motion factor or the "
+                    "runner's size (--leg) right?",
+                    gait.speed_m_s));
   const double gravity = apparent_gravity(fit);
   if (!gait.walks && fit.bounce.peak_to_peak_m() > 0.02 && (gravity < 0.45 || gravity > 3))
     verdict.note(
@@ -222,11 +258,14 @@ void judge_fit(const Trajectory& trajectory, const Marks& observations, const St
   else if (fit.outlier_fraction > 0.12)
     verdict.note(outliers);
   judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict);
+  judge_scene(trajectory, leg_px, verdict);
   judge_cuts(trajectory, observations, fit, leg_px, verdict);
   judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
   if (gait.likeness < 0.6)
-    verdict.note(fmt::format("hip and knee move unlike a human runner's (correlation {:.2f})",
-                             gait.likeness));
+    verdict.note(
+        fmt::format("hip and knee move unlike a human runner's (correlation {:.2f}): are the marks "
+                    "on the right joints, is the frame rate or the slow-motion factor right?",
+                    gait.likeness));
   const double ratio = r.body[body::thigh] / r.body[body::shank];
   if (ratio < 0.65 || ratio > 1.5)
     verdict.note(
