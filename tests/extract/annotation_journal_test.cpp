@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -11,6 +10,7 @@
 
 #include "extract/annotation/change_json.h"
 #include "extract/file.h"
+#include "tests/support/killed_after.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -131,28 +131,6 @@ TEST(AnnotationJournal, RefusesKeypointsOfANewerProgramOrAnotherVideo) {
   std::ofstream(file) << text;
   EXPECT_ERROR(AnnotationJournal(file, fresh()), "version 9: this program reads up to version 1");
   EXPECT_EQ(slurp(file), text);
-}
-
-/// Runs `act` in a process of its own that is killed after it has written `confirmed` bytes.
-template <typename Act>
-int killed_after(int confirmed, Act act) {
-  int pipe_ends[2];
-  EXPECT_EQ(::pipe(pipe_ends), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(pipe_ends[0]);
-    act([&] { return ::write(pipe_ends[1], ".", 1) == 1; });
-    ::_exit(0);
-  }
-  ::close(pipe_ends[1]);
-  int read = 0;
-  char byte;
-  while (read < confirmed && ::read(pipe_ends[0], &byte, 1) == 1) ++read;
-  ::kill(child, SIGKILL);
-  while (::read(pipe_ends[0], &byte, 1) == 1) ++read;  // confirmed before it died
-  ::close(pipe_ends[0]);
-  ::waitpid(child, nullptr, 0);
-  return read;
 }
 
 TEST(AnnotationJournal, AKilledWindowLosesNoClick) {

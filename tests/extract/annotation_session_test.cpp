@@ -12,6 +12,7 @@
 #include "extract/annotation/predict.h"
 #include "extract/annotation/script.h"
 #include "extract/file.h"
+#include "tests/support/killed_after.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -240,6 +241,41 @@ TEST_F(Annotating, EveryEditIsOnDiskWhenTheEventReturns) {
   EXPECT_THAT(log, ::testing::HasSubstr("knee_r"));
   session->rest();
   EXPECT_TRUE(load_keypoints(folder / "human.keypoints.json").frames.at(0)[BodyPart::knee_r]);
+}
+
+TEST_F(Annotating, AWindowKilledAtAHundredMomentsKeepsEveryClick) {
+  // What a process wrote survives its death without a disk too, and thousands of flushes take time.
+  if (std::filesystem::exists("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
+  const TemporaryFolder memory;
+  ::unsetenv("TMPDIR");
+  std::mt19937_64 random(7);
+  for (int round = 0; round < 100; ++round) {
+    const auto file = memory / fmt::format("run{}.keypoints.json", round);
+    const auto placed = [](const Keypoints& keypoints) {
+      int clicks = 0;
+      for (const auto& [number, frame] : keypoints.frames)
+        for (const BodyPart part : kBodyParts) clicks += frame.placed(part);
+      return clicks;
+    };
+    const int confirmed = killed_after(static_cast<int>(random() % 50), [&](auto confirm) {
+      journal = std::make_unique<AnnotationJournal>(file, fresh);
+      session = std::make_unique<AnnotationSession>(*journal, frames);
+      answer();
+      for (int i = 0; i < 60; ++i) {
+        click(100 + 7 * i, 60 + 40 * (i % 7));
+        confirm();
+        if (i % 9 == 8) session->rest();
+      }
+      for (;;) ::pause();
+    });
+    const AnnotationJournal recovered(file, fresh);
+    const Keypoints& keypoints = recovered.document().keypoints();
+    ASSERT_GE(placed(keypoints), confirmed);
+    ASSERT_LE(placed(keypoints), confirmed + 1);  // one that was not yet confirmed
+    if (confirmed > 0) {
+      ASSERT_EQ(keypoints.near_leg, "right");
+    }
+  }
 }
 
 TEST_F(Annotating, PredictsBetweenClicks) {
