@@ -282,6 +282,7 @@ TEST_F(Annotating, PredictsBetweenClicks) {
   const Keypoints truth = load_keypoints(kVideos / "human.keypoints.json");
   const Prediction prediction = predict(truth, frames, std::atomic<bool>(false)).value();
   EXPECT_NEAR(prediction.stride_frames, 0.689 * 30, 0.3);  // the period the clip was made with
+  EXPECT_TRUE(prediction.suspects.empty());
   const std::atomic<bool> given_up = true;
   EXPECT_FALSE(predict(truth, frames, given_up));
   answer();
