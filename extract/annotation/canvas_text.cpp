@@ -35,7 +35,9 @@ void AnnotationCanvas::draw_head_line() {
                                                         : "tracked";
   }
   right += "   ? help";
-  draw_text(canvas_, right, {size.width - text_width(right) - 10, 17}, colour::kDim);
+  const int at = size.width - text_width(right) - 10;
+  cv::rectangle(canvas_, {at - 10, 0, size.width, kHeadLine}, colour::kPanel, cv::FILLED);
+  draw_text(canvas_, right, {at, 17}, colour::kDim);
 }
 
 std::string AnnotationCanvas::what_a_click_does() const {
@@ -80,9 +82,12 @@ void AnnotationCanvas::draw_status() {
     draw_dot(canvas_, {x + 5.0, y - 5.0}, 5, colour(*s_.asked_));
     x += 18;
   }
-  draw_text(canvas_, what_a_click_does(), {x, y}, colour::kText, 0.5);
-  x += text_width(what_a_click_does(), 0.5) + 30;
-  std::string message = s_.message_;
+  const std::string click = what_a_click_does();
+  const double letters = std::min(0.5, 0.5 * (size.width - x - 10) / text_width(click, 0.5));
+  draw_text(canvas_, click, {x, y}, colour::kText, letters);
+  x += text_width(click, letters) + 30;
+  const std::string& message = s_.message_;
+  if (message.empty()) return;
   const int room = size.width - x - 10;
   if (text_width(message) > room) {
     // A long message gets a line of its own above the timeline.
@@ -97,8 +102,9 @@ void AnnotationCanvas::draw_status() {
 
 void AnnotationCanvas::draw_help() {
   const auto& help = key_help();
-  const int row = 24, width = 760, height = static_cast<int>(help.size()) * row + 34;
   const cv::Size size = s_.options_.canvas_px;
+  const int rows = static_cast<int>(help.size());
+  const int row = std::min(24, (size.height - 40) / rows), width = 760, height = rows * row + 34;
   const cv::Rect box((size.width - width) / 2, std::max(4, (size.height - height) / 2), width,
                      height);
   shade(canvas_, {0, 0, size.width, size.height}, 0.5);
