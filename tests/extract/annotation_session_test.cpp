@@ -499,6 +499,9 @@ TEST_F(Annotating, AScriptSaysWhereItFails) {
   std::ofstream(folder / "s.jsonl") << "\n{\"key\": \"[\"}\n";
   EXPECT_ERROR(run_script(*session, folder / "s.jsonl", [] {}),
                "s.jsonl:2: no clicked frame before this one");
+  std::ofstream(folder / "s.jsonl") << "{\"click\": [300, 400]}\n";  // it would be in the timeline
+  EXPECT_ERROR(run_script(*session, folder / "s.jsonl", [] {}),
+               "s.jsonl:1: (300, 400): must be in the piece of the image that is shown");
 }
 
 }  // namespace
