@@ -19,8 +19,7 @@ std::string outside_band(const StrideFit& fit, const Gait& gait) {
   const Runner& r = fit.runner;
   std::string text;
   const auto compare = [&](const char* joint, const auto& curve, const HumanRunning::Joint& band) {
-    int outside = 0;
-    bool was_outside = false;
+    int outside = 0, since = -1;
     double farthest = 0, where = 0;
     std::string spans;
     for (int i = 0; i < 100; ++i) {
@@ -29,12 +28,15 @@ std::string outside_band(const StrideFit& fit, const Gait& gait) {
       const double low = human.at(band.low, phase), high = human.at(band.high, phase);
       const double out = angle < low ? angle - low : angle > high ? angle - high : 0;
       outside += out != 0 ? 1 : 0;
-      if (out != 0 && !was_outside) spans += fmt::format("{}{}", spans.empty() ? "" : ", ", i);
-      if (out == 0 && was_outside) spans += fmt::format("-{}", i - 1);
-      was_outside = out != 0;
+      if (out != 0 && since < 0) since = i;
+      if (since >= 0 && (out == 0 || i == 99)) {
+        const int last = out == 0 ? i - 1 : i;
+        spans += spans.empty() ? "" : ", ";
+        spans += since == last ? fmt::format("{}", last) : fmt::format("{}-{}", since, last);
+        since = -1;
+      }
       if (std::abs(out) > std::abs(farthest)) farthest = out, where = phase;
     }
-    if (was_outside) spans += "-99";
     text += fmt::format("  {:<6} {:3} % of the stride outside", joint, outside);
     if (outside > 0)
       text += fmt::format(" (at {} %), farthest {:+.0f} deg at {:.0f} %", spans, farthest / kDegree,
