@@ -61,8 +61,9 @@ void run(const CalibrateCommand& command) {
                 beside.string() + ".report.svg");
   if (result.fit.ok && !command.overlay.empty()) {
     const fs::path video = video_of(command, trajectory);
-    require(!video.empty(), "--overlay: the video {} does not lie beside the trajectory: --video",
-            trajectory.video);
+    require(!video.empty(),
+            "--overlay {}: the video {} does not lie beside the trajectory; give it by --video",
+            command.overlay.string(), trajectory.video);
     write_overlay(video, fitted_points(trajectory, model, result), command.overlay);
   }
   require(!result.verdict.refused || (command.force && result.fit.ok),

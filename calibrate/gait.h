@@ -9,8 +9,8 @@ namespace stride {
 
 /// What a fitted stride looks like on the model, and when its feet stand.
 struct Gait {
-  double foot_strike = 0;  // phase of the fit at which the right foot strikes
-  bool walks = false;
+  double foot_strike = 0;      // phase of the fit at which the right foot strikes
+  bool walks = false;          // rather than runs
   double duty = 0;             // part of the stride that a foot is on the ground
   double speed_m_s = 0;        // of the runner: how fast the foot that stands goes back
   double pelvis_height_m = 0;  // mean, of the model's pelvis origin, its lowest foot on the ground
