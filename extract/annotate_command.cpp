@@ -231,7 +231,8 @@ void add_annotate_command(CLI::App& app) {
                      "clicks (default: NAME.keypoints.json beside the video)");
   command.add_option("--script", request->script,
                      "without a window: events from a file, one JSON object a line");
-  command.add_option("--window", request->window, "its size: WIDTH HEIGHT")->expected(2);
+  command.add_option("--window", request->window, "its size: WIDTH HEIGHT (default: 1280 860)")
+      ->expected(2);
   command.add_flag("--hips", request->session.hips, "ask for the hips too");
   command.add_flag("--head", request->session.head, "ask for the head too");
   command.add_option("--import", request->import_from,
