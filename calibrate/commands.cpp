@@ -7,6 +7,7 @@
 
 #include "calibrate/calibrate.h"
 #include "calibrate/fit_options.h"
+#include "calibrate/fitted.h"
 #include "calibrate/report.h"
 #include "calibrate/report_frames.h"
 #include "extract/error.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommand {
-  fs::path trajectory, out, video, overlay, model = default_model_file();
+  fs::path trajectory, out, fitted, video, overlay, model = default_model_file();
   RunnerSize size;
   std::string direction;
   bool force = false, no_picture = false, mot = false;
@@ -70,6 +71,10 @@ void run(const CalibrateCommand& command) {
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
           command.trajectory.string(), result.verdict.text());
   save(result.run, out);
+  if (!command.fitted.empty()) {
+    save(fitted_px(trajectory, model, result), command.fitted);
+    fmt::print("{}\n", command.fitted.string());
+  }
   if (command.mot) save_mot(result.run, beside.string() + ".mot");
   fmt::print("{}\n", out.string());
 }
@@ -95,6 +100,9 @@ void add_calibrate_commands(CLI::App& app) {
   calibrate
       ->add_option("--direction", command->direction, "right or left: the way the runner faces")
       ->check(CLI::IsMember({"right", "left"}));
+  calibrate->add_option("--fitted", command->fitted,
+                        "also write the fitted runner in the image, px: a trajectory for stride "
+                        "track --prior");
   calibrate->add_flag("--mot", command->mot, "also write NAME.mot, the coordinates for OpenSim");
   calibrate->add_flag("--no-picture", command->no_picture, "do not draw NAME.report.svg");
   calibrate->add_flag("--force", command->force, "write the fit of a clip that was refused");

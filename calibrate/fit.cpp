@@ -77,8 +77,8 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
   return best;
 }
 
-Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions, BodyPart part,
-                             int frame, double u_s) {
+Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directions, BodyPart part,
+                                double u_s) {
   const Runner& r = fit.runner;
   const double phase = phase_at(r.cadence.data(), u_s);
   const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
@@ -87,7 +87,12 @@ Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions,
                                        evaluate_series(r.tilt.data(), 2, phase), leg, phase);
   const double scale =
       std::exp(r.camera[camera::log_px_per_m] + r.camera[camera::drift_per_s] * u_s);
-  return fit.pelvis_px[frame] + scale * turned(r.camera[camera::roll], q);
+  return scale * turned(r.camera[camera::roll], q);
+}
+
+Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions, BodyPart part,
+                             int frame, double u_s) {
+  return fit.pelvis_px[frame] + about_pelvis_px(fit, directions, part, u_s);
 }
 
 Eigen::VectorXd propagated_sd(const StrideFit& fit,

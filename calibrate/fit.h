@@ -88,6 +88,10 @@ Runner unflattened(const Eigen::VectorXd& values);
 StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
                      const FitOptions& options = {});
 
+/// Where a part of the runner is from its marked pelvis, px.
+Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directions, BodyPart part,
+                                double u_s);
+
 /// Where a part of the runner is in the image of frame `frame`, px as Mark::z_px.
 Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions, BodyPart part,
                              int frame, double u_s);

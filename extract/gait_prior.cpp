@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "extract/gait/hyperparameters.h"
+#include "extract/gait/joint.h"
 #include "extract/gait/regression.h"
 
 namespace stride {
@@ -28,15 +30,33 @@ std::vector<Sample> relative(std::vector<Sample> samples, const Regression& pelv
   return samples;
 }
 
-std::vector<GroupData> leg_data(const Observations& clicks, double origin_s,
-                                const Regression& pelvis, double size_px) {
+Regression pelvis_regression(const GaitPrior& prior, const Observations& clicks) {
+  const auto samples = samples_of(kPelvis, clicks, prior.origin_s);
+  return {prior.trunk, centred(kPelvis, with_noise(samples, prior.trunk.noise_px), prior.size_px)};
+}
+
+/// Knees and ankles, which say enough, about the pelvis.
+std::vector<GroupData> leg_data(const GaitPrior& prior, const Observations& clicks) {
+  const Regression pelvis = pelvis_regression(prior, clicks);
   std::vector<GroupData> groups;
   for (const Group& group : kLegGroups) {
-    if (groups.size() == 2) break;  // knees and ankles say enough
-    const auto samples = samples_of(group, clicks, origin_s);
-    if (samples.size() >= 4) groups.push_back(centred(group, relative(samples, pelvis), size_px));
+    if (groups.size() == 2) break;
+    const auto samples = samples_of(group, clicks, prior.origin_s);
+    if (samples.size() >= 4)
+      groups.push_back(centred(group, relative(samples, pelvis), prior.size_px));
   }
   return groups;
+}
+
+JointData joint_data(const GaitPrior& prior, const Observations& clicks) {
+  JointData data{centred(kPelvis, samples_of(kPelvis, clicks, prior.origin_s), prior.size_px),
+                 leg_data(prior, clicks)};
+  for (GroupData& group : data.legs) {
+    const auto places = samples_of(group.group, clicks, prior.origin_s);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      group.samples[i].p_px = places[i].p_px - data.pelvis.mean_px - group.mean_px;
+  }
+  return data;
 }
 
 /// Fewer clicks where there are many, as of a detector: enough for the kernels, at most ten a
@@ -105,24 +125,16 @@ GaitPrior fit_gait_prior(const Observations& all_clicks) {
 
   prior.size_px = leg_size_px(clicks);
 
-  // The pelvis at first by a nearly free spline, then by the period that the legs show.
+  // The pelvis at first by a nearly free spline, then together with the legs.
   prior.trunk.residual = 1;
-  const auto pelvis = samples_of(kPelvis, clicks, prior.origin_s);
-  const auto pelvis_regression = [&] {
-    return Regression(prior.trunk,
-                      centred(kPelvis, with_noise(pelvis, prior.trunk.noise_px), prior.size_px));
-  };
-  auto legs = leg_data(clicks, prior.origin_s, pelvis_regression(), prior.size_px);
+  const auto legs = leg_data(prior, clicks);
   if (legs.empty()) return prior;
-  Fitted fit = fitted(legs, facing(clicks));
+  prior.legs = fitted(legs, facing(clicks)).kernel;
   prior.trunk = GaitKernel();
-  prior.trunk.period_s = fit.kernel.period_s;
-  const std::vector<GroupData> trunk{centred(kPelvis, pelvis, prior.size_px)};
-  prior.trunk = refined({prior.trunk, cost(prior.trunk, trunk)}, trunk, 5).kernel;
-  legs = leg_data(clicks, prior.origin_s, pelvis_regression(), prior.size_px);
-  prior.legs = refined({fit.kernel, cost(fit.kernel, legs)}, legs, 4).kernel;
   prior.trunk.period_s = prior.legs.period_s;
-  return prior;
+  prior.legs.noise_px /= std::numbers::sqrt2;  // a part of it was the noise of the pelvis
+  prior.trunk.noise_px = prior.legs.noise_px;
+  return refined_together(prior, joint_data(prior, clicks), 3);
 }
 
 }  // namespace stride

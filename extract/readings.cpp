@@ -13,6 +13,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClicked = 0.99;           // marks of at least this confidence are a person's
 constexpr double kStudentDof = 3;           // tails of the flow's and the detectors' errors
 constexpr double kLeastStepVariance = 0.1;  // px², of a step of the flow
+constexpr double kMostOfMarks = 0.75;       // of what the flow misses, by the noise of the marks
+constexpr double kFramesAlike = 10;         // of a prediction: their errors are one
+constexpr double kLeastPredictionVariance = 0.02;  // px²
 
 double noise_px(const GaitPrior& prior, BodyPart part) {
   const bool trunk = part == BodyPart::pelvis || part == BodyPart::head;
@@ -20,11 +23,15 @@ double noise_px(const GaitPrior& prior, BodyPart part) {
 }
 
 /// The steps of a stretch where the flow was believed, from either side.
-void read_stretch(const FlowStretch& s, double part_miss, std::vector<Reading>& readings) {
+void read_stretch(const FlowStretch& s, double part_miss, double noise,
+                  std::vector<Reading>& readings) {
   const int length = s.last - s.first;
   const double own_miss = (s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm()) / 4;
+  // The marks at both ends are a part of the miss.
+  const double miss = part_miss + own_miss,
+               drift = std::max(miss - 3 * noise * noise, (1 - kMostOfMarks) * miss);
   // The steps of a stretch share their error: as much again as if they were independent, and more.
-  const double step_variance = kLeastStepVariance + 2 * (part_miss + own_miss) / length;
+  const double step_variance = kLeastStepVariance + 2 * drift / length;
   for (int i = 0; i < length; ++i) {
     const FlowStep &a = s.forward[static_cast<std::size_t>(i)],
                    &b = s.backward[static_cast<std::size_t>(i)];
@@ -81,7 +88,7 @@ void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const 
 }
 
 void add_prediction(std::vector<Reading>& readings, const Trajectory& prediction,
-                    const Trajectory& marks) {
+                    const Trajectory& marks, const GaitPrior& prior) {
   const int first = marks.frames.front().frame, last = marks.frames.back().frame;
   for (const BodyPart part : kBodyParts) {
     Vector2d squared = Vector2d::Zero();
@@ -93,7 +100,12 @@ void add_prediction(std::vector<Reading>& readings, const Trajectory& prediction
           ++n;
         }
     if (n < 3) continue;
-    const Vector2d variance_px2 = (2 * squared / n).cwiseMax(0.25);
+    // Of the distance from the marks, what their noise does not explain. The error of a fit is the
+    // same in frames that follow one another and in every stride: each says little of its own.
+    const double noise = std::pow(noise_px(prior, part), 2);
+    const Vector2d own_px2 = (squared / n).array() - 0.7 * noise;
+    const Vector2d variance_px2 =
+        kFramesAlike * own_px2.cwiseMax(std::max(0.15 * noise, kLeastPredictionVariance));
     for (const TrajectoryFrame& frame : prediction.frames)
       if (frame.frame >= first && frame.frame <= last && frame[part].present())
         readings.push_back({part, frame.frame, frame[part].p_px, variance_px2});
@@ -111,11 +123,12 @@ double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart par
   return n > 0 ? sum / n : kNan;
 }
 
-void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches) {
+void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches,
+              const GaitPrior& prior) {
   for (const BodyPart part : kBodyParts) {
     const double miss = mean_squared_miss(stretches, part);
     for (const FlowStretch& stretch : stretches)
-      if (stretch.part == part) read_stretch(stretch, miss, readings);
+      if (stretch.part == part) read_stretch(stretch, miss, noise_px(prior, part), readings);
   }
 }
 

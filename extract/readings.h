@@ -33,16 +33,18 @@ std::vector<Reading> readings_of(const Trajectory& marks);
 void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const GaitPrior& prior,
                  bool exactly);
 
-/// Adds a prediction by others as weak readings: its variance is how far it is from the marks.
+/// Adds a prediction by others as weak readings: its variance is how far it is from the marks,
+/// beyond their noise.
 void add_prediction(std::vector<Reading>& readings, const Trajectory& prediction,
-                    const Trajectory& marks);
+                    const Trajectory& marks, const GaitPrior& prior);
 
 /// Mean square per coordinate by which the flow missed the next mark: how far it can be trusted on
 /// this part of this clip. NaN if the part was never followed.
 double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart part);
 
 /// Adds the steps where the flow was believed, from either side.
-void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches);
+void add_flow(std::vector<Reading>& readings, const std::vector<FlowStretch>& stretches,
+              const GaitPrior& prior);
 
 /// Takes weight from readings that disagree with the estimates (Student's t by reweighting);
 /// `estimates[0]` is of `first_frame`.

@@ -131,7 +131,7 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
   for (int look = 0; look < kLooks; ++look) {
     readings = unweighed;
     weigh_marks(readings, marks, summary.prior, options.keep_marks);
-    if (options.prior) add_prediction(readings, *options.prior, marks);
+    if (options.prior) add_prediction(readings, *options.prior, marks, summary.prior);
     if (!options.flow || footage.sights.empty()) break;
     const Estimates expected =
         estimate(summary.prior, observations_of(readings, times_s), span_s, false);
@@ -141,7 +141,7 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
           return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
         },
         flow_options(body_size_px(marks)));
-    add_flow(readings, stretches);
+    add_flow(readings, stretches, summary.prior);
     const double before_s = summary.prior.legs.period_s;
     summary.prior = with_period_of(summary.prior, observations_of(readings, times_s));
     if (std::abs(summary.prior.legs.period_s / before_s - 1) < kSettled) break;

@@ -78,7 +78,7 @@ Trajectory splined(const Trajectory& clicks, const Trajectory& truth) {
   return result;
 }
 
-/// Sorted distances from the truth, over the frames of the first that lie inside the clicks.
+/// Distances from the truth, over the frames of the first that lie inside the clicks.
 std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth, int first,
                               int last) {
   std::map<int, const TrajectoryFrame*> true_frames;
@@ -88,7 +88,6 @@ std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth,
     if (frame.frame >= first && frame.frame <= last)
       for (const BodyPart part : kScoredParts)
         errors.push_back((frame[part].p_px - (*true_frames.at(frame.frame))[part].p_px).norm());
-  std::ranges::sort(errors);
   return errors;
 }
 
@@ -114,33 +113,49 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
   std::vector<TrackScore> scores;
   for (const double noise_px : options.noises_px)
     for (const int spacing : options.spacings) {
-      const Trajectory clicks = clicks_on(truth, options.first_frame, spacing, noise_px,
-                                          options.seed + static_cast<unsigned>(spacing));
-      std::size_t next = 0;
-      const FrameSource source = [&](VideoFrame& frame) {
-        if (next == frames.size()) return false;
-        frame = frames[next++];
-        return true;
-      };
-      WatchOptions watching;
-      watching.camera = false;
-      const Footage footage = watch(clicks, source, watching);
-      const auto tracked = [&](bool flow) {
-        TrackOptions track_options;
-        track_options.flow = flow;
-        return track(clicks, footage, track_options);
-      };
-      const int last = clicks.frames.back().frame;
-      const Tracked result = tracked(true);
-      const auto errors = errors_px(result.trajectory, truth, options.first_frame, last);
       TrackScore& score = scores.emplace_back();
-      score.period_s = result.summary.prior.legs.period_s;
       score.spacing_frames = spacing;
       score.noise_px = noise_px;
-      score.spline_px = rms(errors_px(splined(clicks, truth), truth, options.first_frame, last));
-      score.prior_px = rms(errors_px(tracked(false).trajectory, truth, options.first_frame, last));
-      score.tracked_px = rms(errors);
-      score.tracked_p95_px = errors[errors.size() * 95 / 100];
+      std::vector<double> spline, prior, tracked, again;
+      for (int i = 0; i < options.seeds; ++i) {
+        const int first = options.first_frame + i % spacing;
+        const Trajectory clicks =
+            clicks_on(truth, first, spacing, noise_px,
+                      options.seed + static_cast<unsigned>(spacing + 1000 * i));
+        const int last = clicks.frames.back().frame;
+        std::size_t next = 0;
+        const FrameSource source = [&](VideoFrame& frame) {
+          if (next == frames.size()) return false;
+          frame = frames[next++];
+          return true;
+        };
+        WatchOptions watching;
+        watching.camera = false;
+        const Footage footage = watch(clicks, source, watching);
+        const auto add = [&](std::vector<double>& errors, const Trajectory& result) {
+          const auto more = errors_px(result, truth, first, last);
+          errors.insert(errors.end(), more.begin(), more.end());
+        };
+        TrackOptions track_options;
+        const Tracked result = track(clicks, footage, track_options);
+        score.period_s = result.summary.prior.legs.period_s;
+        add(spline, splined(clicks, truth));
+        add(tracked, result.trajectory);
+        if (options.predict) {
+          const auto prediction = options.predict(result.trajectory);
+          track_options.prior = prediction ? &*prediction : nullptr;
+          add(again, track(clicks, footage, track_options).trajectory);
+        }
+        track_options = {};
+        track_options.flow = false;
+        add(prior, track(clicks, footage, track_options).trajectory);
+      }
+      std::ranges::sort(tracked);
+      score.spline_px = rms(spline);
+      score.prior_px = rms(prior);
+      score.tracked_px = rms(tracked);
+      score.again_px = rms(again);
+      score.tracked_p95_px = tracked[tracked.size() * 95 / 100];
     }
   return scores;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct TrackScore {
   double prior_px = 0;     // of the prior alone, without looking at the picture
   double tracked_px = 0;   // of track()
   double tracked_p95_px = 0;
+  double again_px = 0;  // of track() with the second pass's prediction; 0 without one
   double period_s = 0;  // of the stride that was found
   double gain() const { return spline_px / tracked_px; }
 };
@@ -26,6 +29,9 @@ struct ScoreOptions {
   std::vector<double> noises_px{0, 1.5};
   int first_frame = 0;  // the first click
   unsigned seed = 1;
+  int seeds = 1;  // other noise, or without noise other frames, so many times
+  /// A prediction made from what was tracked, as by a fit, to track once more with.
+  std::function<std::optional<Trajectory>(const Trajectory&)> predict = nullptr;
 };
 
 /// `truth`: a CSV with frame and <part>_x, <part>_y of every frame, in pixels.

@@ -101,16 +101,20 @@ double backwards_cost(const GaitKernel& kernel, const std::vector<GroupData>& gr
 
 }  // namespace
 
-double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
+double improbability(const GaitKernel& kernel, bool legs) {
   double sum = 0;
-  const bool legs = groups.front().group.paired();
   for (const Hyperparameter& h : kHyperparameters) {
     const double value = kernel.*h.member;
     if (value < h.low || value > h.high) return std::numeric_limits<double>::infinity();
     const Expected& expected = legs ? h.legs : h.trunk;
     sum += 0.5 * std::pow(std::log(value / expected.value) / expected.spread, 2);
   }
-  return sum + surprise(kernel, groups);
+  return sum;
+}
+
+double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
+  const double sum = improbability(kernel, groups.front().group.paired());
+  return std::isfinite(sum) ? sum + surprise(kernel, groups) : sum;
 }
 
 Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
@@ -120,18 +124,10 @@ Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
     for (const Hyperparameter& h : kHyperparameters) {
       const bool is_period = h.member == &GaitKernel::period_s;
       if (is_period && !legs) continue;  // the trunk takes the legs'
-      const double factor = is_period ? 1 + 0.02 * (step - 1) : step;
-      for (const double f : {factor, 1 / factor}) {
-        Fitted next = best;
-        int moves = 0;
-        for (; moves < 3; ++moves) {
-          next.kernel.*h.member *= f;
-          next.cost = cost(next.kernel, groups);
-          if (next.cost >= best.cost) break;
-          best = next;
-        }
-        if (moves > 0) break;
-      }
+      descend(
+          best, best.cost, is_period ? 1 + 0.02 * (step - 1) : step, 3,
+          [&](Fitted& next, double factor) { next.kernel.*h.member *= factor; },
+          [&](const Fitted& next) { return cost(next.kernel, groups); });
     }
   return best;
 }

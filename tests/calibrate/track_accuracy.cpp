@@ -1,0 +1,59 @@
+// Accuracy of tracking against the truth of clips: the table of extract/README.md.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "calibrate/fitted.h"
+#include "extract/error.h"
+#include "extract/track_score.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The truth beside a video: NAME.truth.csv or NAME_gt.csv.
+fs::path truth_of(const fs::path& video) {
+  for (const char* ending : {".truth.csv", "_gt.csv"})
+    if (const fs::path file = video.parent_path() / (video.stem().string() + ending);
+        fs::exists(file))
+      return file;
+  throw Error(fmt::format("{}: no NAME.truth.csv beside it", video.string()));
+}
+
+void measure(const std::string& clip, ScoreOptions options, const SagittalModel& model) {
+  const fs::path video = clip.find('/') == std::string::npos
+                             ? fs::path(STRIDE_SOURCE_DIR "/videos") / (clip + ".mp4")
+                             : fs::path(clip);
+  options.predict = [&](const Trajectory& tracked) -> std::optional<Trajectory> {
+    const Calibration result = calibrate(tracked, model);
+    if (!result.fit.ok) return std::nullopt;
+    return fitted_px(tracked, model, result);
+  };
+  for (const TrackScore& s : score_tracking(video, truth_of(video), options))
+    fmt::print(
+        "{:<24} {} {:3.1f}  spline {:5.2f}  prior {:5.2f}  tracked {:5.2f} (gain {:4.2f})  again "
+        "{:5.2f}\n",
+        video.stem().string(), s.spacing_frames, s.noise_px, s.spline_px, s.prior_px, s.tracked_px,
+        s.gain(), s.again_px);
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace stride
+
+int main(int argc, char** argv) try {
+  std::vector<std::string> clips{"human", "left", "game", "cartoon", "small", "walk"};
+  stride::ScoreOptions options;
+  CLI::App app("Measures tracking against the truth of rendered clips");
+  app.add_option("clips", clips, "names in videos/, or video files with their truth beside them");
+  app.add_option("--seeds", options.seeds, "how many sets of clicks each");
+  app.add_option("--spacings", options.spacings, "frames between clicks");
+  app.add_option("--noises", options.noises_px, "of the clicks, px");
+  CLI11_PARSE(app, argc, argv);
+  const auto model = stride::sagittal_model(stride::load_osim(stride::default_model_file()));
+  for (const std::string& clip : clips) stride::measure(clip, options, model);
+} catch (const stride::Error& error) {
+  fmt::print(stderr, "track_accuracy: {}\n", error.what());
+  return 1;
+}
