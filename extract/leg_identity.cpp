@@ -315,6 +315,7 @@ LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& opti
   std::vector<bool> swapped(legs.frames.size());
   Costs costs{
       legs, usual_jumps(legs, swapped), {}, near_side(points.direction), options.clicked_frames};
+  costs.fold = fold_stride(legs.joints, legs.times_s);  // most names are right
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<bool> before = swapped;
     swapped = cheapest_naming(costs);

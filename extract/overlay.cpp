@@ -33,6 +33,15 @@ class Brush {
     });
   }
 
+  void ring(const Eigen::Vector2d& p, const cv::Scalar& colour, double radius, double opacity) {
+    const auto fixed_radius = static_cast<int>(std::lround(radius * scale_ * (1 << kSubpixelBits)));
+    mix(opacity, box(p, p, 2 * radius + 2), [&](cv::Mat& layer) {
+      for (const auto& [each, width] : {std::pair(kEdge, 2.6), std::pair(colour, 1.3)})
+        cv::circle(layer, fixed_point(p), fixed_radius, each, thickness(width), cv::LINE_AA,
+                   kSubpixelBits);
+    });
+  }
+
   void dot(const Eigen::Vector2d& p, const cv::Scalar& colour, double radius, double opacity) {
     const auto fixed_radius = [&](double r) {
       return static_cast<int>(std::lround(r * scale_ * (1 << kSubpixelBits)));
@@ -74,6 +83,13 @@ class Brush {
 
 double opacity(double confidence) { return 0.3 + 0.7 * std::clamp(confidence, 0.0, 1.0); }
 
+void draw_joint(Brush& brush, const Point& point, const cv::Scalar& colour, double radius) {
+  if (point.confidence <= 0.3)
+    return brush.ring(point.p_px, colour, radius, opacity(point.confidence));
+  brush.dot(point.p_px, colour, radius, opacity(point.confidence));
+  if (point.confidence == 1) brush.dot(point.p_px, kTrunk, 0.4 * radius, 1);
+}
+
 struct Leg {
   BodyPart hip, knee, ankle, toe;
 };
@@ -91,8 +107,60 @@ void draw_leg(Brush& brush, const TrajectoryFrame& frame, const Leg& leg,
                  opacity(std::min(a.confidence, b.confidence)));
   }
   for (const BodyPart part : {leg.knee, leg.ankle, leg.toe})
-    if (frame[part].present())
-      brush.dot(frame[part].p_px, colour, 3.2, opacity(frame[part].confidence));
+    if (frame[part].present()) draw_joint(brush, frame[part], colour, 3.2);
+}
+
+/// Where a part was on the frames of the last seconds, the oldest first, on the ground as it lies
+/// in frame `i`. Where the background could not be followed it counts as at rest.
+std::vector<Eigen::Vector2d> way_over_ground(const Trajectory& trajectory, std::size_t i,
+                                             BodyPart part, double seconds) {
+  std::vector<Eigen::Vector2d> way;
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  const double now_s = trajectory.frames[i].time_s;
+  for (std::size_t k = i;; --k) {
+    const TrajectoryFrame& frame = trajectory.frames[k];
+    if (!frame[part].present() || frame.time_s < now_s - seconds) break;
+    way.push_back(frame[part].p_px + moved);
+    if (k == 0) break;
+    if (frame.camera_px.allFinite()) moved += frame.camera_px;
+  }
+  std::ranges::reverse(way);
+  return way;
+}
+
+/// Between b and c on the curve through four points (Catmull and Rom).
+Eigen::Vector2d between(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& c, const Eigen::Vector2d& d, double t) {
+  return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+}
+
+/// A tail that fades and narrows with its age. It is drawn in a mask first, so that its pieces do
+/// not show where they overlap.
+void draw_trail(cv::Mat& image, const std::vector<Eigen::Vector2d>& way, const cv::Scalar& colour,
+                double scale) {
+  constexpr int kPieces = 5;
+  const int n = static_cast<int>(way.size());
+  if (n < 2) return;
+  cv::Mat opacity(image.size(), CV_8U, cv::Scalar(0));
+  const auto at = [&](int k) { return way[static_cast<std::size_t>(std::clamp(k, 0, n - 1))]; };
+  for (int k = 0; k + 1 < n; ++k)
+    for (int piece = 0; piece < kPieces; ++piece) {
+      const auto point = [&](int p) {
+        return fixed_point(between(at(k - 1), at(k), at(k + 1), at(k + 2), p / double(kPieces)));
+      };
+      const double youth = (k + (piece + 1.0) / kPieces) / (n - 1);
+      cv::line(opacity, point(piece), point(piece + 1), cv::Scalar(200 * youth),
+               std::max(1, static_cast<int>(std::lround(3 * scale * youth))), cv::LINE_AA,
+               kSubpixelBits);
+    }
+  const cv::Rect area = cv::boundingRect(opacity);
+  for (int y = area.y; y < area.y + area.height; ++y)
+    for (int x = area.x; x < area.x + area.width; ++x) {
+      const double share = opacity.at<unsigned char>(y, x) / 255.0;
+      auto& pixel = image.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = cv::saturate_cast<unsigned char>((1 - share) * pixel[c] + share * colour[c]);
+    }
 }
 
 }  // namespace
@@ -103,22 +171,16 @@ void draw_points(cv::Mat& image, const Trajectory& trajectory, std::size_t i,
   const TrajectoryFrame& frame = trajectory.frames[i];
   const auto& [near, far] =
       style.near_is_right ? std::pair(kRightLeg, kLeftLeg) : std::pair(kLeftLeg, kRightLeg);
-  for (int back = std::min<int>(style.trail_frames, static_cast<int>(i)); back > 0; --back)
-    for (const auto& [leg, colour] : {std::pair(far, kFar), std::pair(near, kNear)}) {
-      const auto at = [&](int frames_ago) -> const Point& {
-        return trajectory.frames[i - static_cast<std::size_t>(frames_ago)][leg.ankle];
-      };
-      if (at(back).present() && at(back - 1).present())
-        brush.line(at(back).p_px, at(back - 1).p_px, colour, 1,
-                   0.5 * (1 - static_cast<double>(back) / (style.trail_frames + 1)));
-    }
+  for (const auto& [leg, colour] : {std::pair(far, kFar), std::pair(near, kNear)})
+    draw_trail(image, way_over_ground(trajectory, i, leg.ankle, style.trail_s), colour,
+               style.scale);
   const Point &pelvis = frame[BodyPart::pelvis], &head = frame[BodyPart::head];
   draw_leg(brush, frame, far, kFar);
   if (pelvis.present() && head.present())
     brush.line(pelvis.p_px, head.p_px, kTrunk, 2, opacity(head.confidence));
   draw_leg(brush, frame, near, kNear);
   for (const Point* point : {&pelvis, &head})
-    if (point->present()) brush.dot(point->p_px, kTrunk, 3.6, opacity(point->confidence));
+    if (point->present()) draw_joint(brush, *point, kTrunk, 3.6);
 }
 
 OverlayStyle overlay_style(const Trajectory& trajectory) {

@@ -75,13 +75,12 @@ std::vector<Reading> readings_of(const Trajectory& marks) {
   return readings;
 }
 
-void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const GaitPrior& prior,
-                 bool exactly) {
+void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const GaitPrior& prior) {
   auto reading = readings.begin();
   for (const TrajectoryFrame& frame : marks.frames)
     for (const BodyPart part : kBodyParts) {
       if (!frame[part].present()) continue;
-      const double noise = exactly ? 0.02 : noise_px(prior, part);
+      const double noise = noise_px(prior, part);
       const double certainty = std::clamp(frame[part].confidence, 0.1, 1.0);
       (reading++)->variance_px2.setConstant(std::pow(noise / certainty, 2));
     }

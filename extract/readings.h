@@ -30,8 +30,7 @@ std::vector<Reading> readings_of(const Trajectory& marks);
 
 /// Gives marks the variance that the fit found, larger where one is less certain. They come first
 /// among the readings, in the order of readings_of().
-void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const GaitPrior& prior,
-                 bool exactly);
+void weigh_marks(std::vector<Reading>& readings, const Trajectory& marks, const GaitPrior& prior);
 
 /// Adds a prediction by others as weak readings: its variance is how far it is from the marks,
 /// beyond their noise.

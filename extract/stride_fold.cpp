@@ -15,6 +15,7 @@ using Basis = Eigen::Matrix<double, 10, 1>;
 constexpr double kShortest_s = 0.4, kLongest_s = 1.7, kScanStep = 1.01;
 constexpr double kUsual_s = 0.75, kSpread = 0.35;  // of periods, log-normal
 constexpr int kReweightings = 4;
+constexpr std::size_t kMostPeaks = 4;  // of periods that are alike
 
 /// Offsets of right and left, then cosine and sine of each harmonic.
 Basis basis(double time_s, int side, double period_s) {
@@ -59,6 +60,11 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen
   return fit;
 }
 
+/// −log probability of a period before anything is seen.
+double improbability(double period_s) {
+  return 0.5 * std::pow(std::log(period_s / kUsual_s) / kSpread, 2);
+}
+
 /// What does not change when right and left are exchanged: sum and squared difference of the two
 /// sides, which repeat every step. A row a frame on which both were seen.
 struct Invariants {
@@ -93,18 +99,30 @@ Invariants invariants(const std::vector<JointPair>& joint, const std::vector<dou
   return result;
 }
 
-/// The period that explains the invariants best; 0 if the clip is too short to tell.
-double find_period_s(const std::vector<std::vector<JointPair>>& joints,
-                     const std::vector<double>& times_s) {
+struct Period {
+  double period_s, cost;  // −log probability of the invariants
+};
+
+/// Whether another period can look the same at these times: four of them in the shortest tell.
+bool has_aliases(const std::vector<double>& times_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) steps_s.push_back(times_s[i] - times_s[i - 1]);
+  return median(steps_s) > kShortest_s / 4;
+}
+
+/// The period that explains the invariants best, or several where it has aliases; none if the clip
+/// is too short to tell.
+std::vector<Period> likely_periods(const std::vector<std::vector<JointPair>>& joints,
+                                   const std::vector<double>& times_s) {
   std::vector<Invariants> seen;
   for (const auto& joint : joints)
     if (Invariants one = invariants(joint, times_s); one.times_s.size() >= 12)
       seen.push_back(std::move(one));
-  if (seen.empty()) return 0;
+  if (seen.empty()) return {};
   const double longest_s = std::min(kLongest_s, times_s.back() - times_s.front());
-  double least = std::numeric_limits<double>::infinity(), best_s = 0;
+  std::vector<Period> scan, peaks;
   for (double period_s = kShortest_s; period_s <= longest_s; period_s *= kScanStep) {
-    double cost = 0.5 * std::pow(std::log(period_s / kUsual_s) / kSpread, 2);
+    double cost = improbability(period_s);
     for (const Invariants& one : seen) {
       Eigen::MatrixXd rows(one.signals.rows(), 7);
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -115,12 +133,15 @@ double find_period_s(const std::vector<std::vector<JointPair>>& joints,
       }
       cost += fit(rows, one.signals, one.weights, 0.5).surprise;
     }
-    if (cost < least) {
-      least = cost;
-      best_s = period_s;
-    }
+    scan.push_back({period_s, cost});
   }
-  return best_s;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if ((i == 0 || scan[i].cost <= scan[i - 1].cost) &&
+        (i + 1 == scan.size() || scan[i].cost < scan[i + 1].cost))
+      peaks.push_back(scan[i]);
+  std::ranges::sort(peaks, {}, &Period::cost);
+  peaks.resize(std::min(peaks.size(), has_aliases(times_s) ? kMostPeaks : 1));
+  return peaks;
 }
 
 }  // namespace
@@ -178,15 +199,21 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
 std::optional<StrideFold> fold_stride(const std::vector<std::vector<JointPair>>& joints,
                                       const std::vector<double>& times_s) {
   if (times_s.size() < 12) return std::nullopt;
-  const double period_s = find_period_s(joints, times_s);
-  if (period_s == 0) return std::nullopt;
-  Folded best = fold_at(joints, times_s, period_s);
+  std::vector<Period> periods = likely_periods(joints, times_s);
+  if (periods.empty()) return std::nullopt;
   // Seen a little from the front or the back the legs differ: two strides then pass for one. With
-  // names, a wrong factor of two puts the legs in step, which fits badly.
-  if (period_s / 2 >= kShortest_s)
-    if (Folded half = fold_at(joints, times_s, period_s / 2); half.surprise < best.surprise)
-      best = std::move(half);
-  return best.fold;
+  // names, a wrong factor of two puts the legs in step, which fits badly; so does a period that
+  // only the spacing of the frames makes likely.
+  if (const auto [period_s, cost] = periods.front(); period_s / 2 >= kShortest_s)
+    periods.push_back({period_s / 2, cost});
+  std::optional<Folded> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto [period_s, cost] : periods)
+    if (Folded next = fold_at(joints, times_s, period_s); cost + next.surprise < least) {
+      least = cost + next.surprise;
+      best = std::move(next);
+    }
+  return best->fold;
 }
 
 }  // namespace stride

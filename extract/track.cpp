@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPriorOnly = 0.3;  // most confidence that the prior alone can give
+constexpr double kKeptNoise_px = 0.02;
 constexpr int kReweightings = 3;
 constexpr int kLooks = 5;          // at the picture, until the period has settled
 constexpr double kSettled = 2e-3;  // change of the period
@@ -126,12 +127,14 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
 
   const std::vector<Reading> unweighed = readings_of(marks);
   summary.prior = fit_gait_prior(observations_of(unweighed, times_s));
+  GaitPrior weights = summary.prior;
+  if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
   std::vector<Reading> readings;
   std::vector<FlowStretch> stretches;
   for (int look = 0; look < kLooks; ++look) {
     readings = unweighed;
-    weigh_marks(readings, marks, summary.prior, options.keep_marks);
-    if (options.prior) add_prediction(readings, *options.prior, marks, summary.prior);
+    weigh_marks(readings, marks, weights);
+    if (options.prior) add_prediction(readings, *options.prior, marks, weights);
     if (!options.flow || footage.sights.empty()) break;
     const Estimates expected =
         estimate(summary.prior, observations_of(readings, times_s), span_s, false);
@@ -141,7 +144,7 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
           return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
         },
         flow_options(body_size_px(marks)));
-    add_flow(readings, stretches, summary.prior);
+    add_flow(readings, stretches, weights);
     const double before_s = summary.prior.legs.period_s;
     summary.prior = with_period_of(summary.prior, observations_of(readings, times_s));
     if (std::abs(summary.prior.legs.period_s / before_s - 1) < kSettled) break;
@@ -169,6 +172,12 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
       tracked.trajectory.frames[i].camera_px = footage.camera[i].way_px;
       tracked.trajectory.frames[i].camera_residual_px = footage.camera[i].residual_px;
     }
+  if (options.keep_marks)  // the regression passes them by a tenth of a pixel
+    for (const TrajectoryFrame& mark : marks.frames)
+      for (const BodyPart part : kBodyParts)
+        if (mark[part].present())
+          tracked.trajectory.frames[static_cast<std::size_t>(mark.frame - first)][part].p_px =
+              mark[part].p_px;
   if (!marks.treadmill)
     tracked.trajectory.treadmill =
         is_treadmill(tracked.trajectory, body_size_px(marks), summary.prior.legs.period_s);

@@ -51,17 +51,18 @@ struct Video::Decoder {
   cv::VideoCapture capture;
   VideoInfo info;
   double slow_motion = 1;
-  cv::Mat first;  // decoded on opening: only a decoded frame proves that this is a video
+  cv::Mat stored;  // of pixels that are not square
+  cv::Mat first;   // decoded on opening: only a decoded frame proves that this is a video
   int frames_read = 0;
   double start_s = 0, previous_s = 0, step_s = 0;  // in presentation time
 
+  /// Into the memory of `image` where nobody else keeps it.
   bool decode(cv::Mat& image) {
-    cv::Mat stored;
+    if (image.u != nullptr && image.u->refcount > 1) image.release();
+    if (info.width_px == 0 || info.width_px == info.stored_width_px)
+      return capture.read(image) && !image.empty();
     if (!capture.read(stored) || stored.empty()) return false;
-    if (info.width_px != 0 && stored.cols != info.width_px)
-      cv::resize(stored, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
-    else
-      image = stored.clone();
+    cv::resize(stored, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
     return true;
   }
 
@@ -131,7 +132,7 @@ bool Video::read(VideoFrame& frame) {
   Decoder& d = *decoder_;
   if (d.frames_read == 0)
     frame.image = std::move(d.first);
-  else if (frame.image = cv::Mat(); !d.decode(frame.image))
+  else if (!d.decode(frame.image))
     return false;
   d.previous_s = d.stamp();
   frame.index = d.frames_read++;

@@ -1,5 +1,6 @@
 #include "calibrate/fitted.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
