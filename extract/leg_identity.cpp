@@ -316,6 +316,9 @@ LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& opti
   Costs costs{
       legs, usual_jumps(legs, swapped), {}, near_side(points.direction), options.clicked_frames};
   costs.fold = fold_stride(legs.joints, legs.times_s);  // most names are right
+  // Between frames that are far apart paths tell nothing.
+  const int span = legs.frames.back() - legs.frames.front();
+  if (!costs.fold && span >= 2 * (static_cast<int>(legs.frames.size()) - 1)) return result;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<bool> before = swapped;
     swapped = cheapest_naming(costs);

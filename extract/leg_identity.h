@@ -33,6 +33,8 @@ struct LegIdentity {
 /// names that came in are right, and the leg nearer to the camera is seen better. A clip whose
 /// names are all swapped cannot be told by motion; there the names that came in are kept.
 ///
+/// Sparse points, as a person's clicks, are told apart by the stride alone, from 12 frames on.
+///
 /// `points` may have gaps and missing parts; parts relative to the pelvis, which is interpolated
 /// where missing. Throws Error if no frame has a pelvis.
 LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& options = {});

@@ -21,6 +21,12 @@ Trajectory marks_of(const Detections& detections, const VideoTimes& times) {
   return marks;
 }
 
+/// Labels of a person are far apart and right; a detector's points are on most frames.
+bool are_labels(const Trajectory& marks) {
+  const auto n = static_cast<int>(marks.frames.size());
+  return n < 2 || marks.frames.back().frame - marks.frames.front().frame >= 2 * (n - 1);
+}
+
 Trajectory repaired(const Trajectory& marks) {
   const LegIdentity legs = repair_legs(marks);
   for (const LegSwap& swap : legs.swaps)
@@ -30,11 +36,6 @@ Trajectory repaired(const Trajectory& marks) {
 }
 
 }  // namespace
-
-bool are_labels(const Trajectory& marks) {
-  const auto n = static_cast<int>(marks.frames.size());
-  return n < 2 || marks.frames.back().frame - marks.frames.front().frame >= 2 * (n - 1);
-}
 
 Marked clicks_on(const fs::path& video, const fs::path& keypoints_file, double slow_motion) {
   require(fs::exists(video), "{}: no such video", video.string());

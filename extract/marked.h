@@ -19,10 +19,6 @@ struct Marked {
 Marked clicks_on(const std::filesystem::path& video, const std::filesystem::path& keypoints_file,
                  double slow_motion);
 
-/// Whether marks are labels of a person, far apart and right; a detector's are on most frames. What
-/// tells swapped legs needs the latter.
-bool are_labels(const Trajectory& marks);
-
 /// The points of another program or of a pose model as marks. Where they are a detector's (on most
 /// frames), right and left are repaired if `with_legs_repaired`, and what was swapped is told on
 /// stderr.

@@ -149,8 +149,8 @@ void draw_trail(cv::Mat& image, const std::vector<Eigen::Vector2d>& way, const c
         return fixed_point(between(at(k - 1), at(k), at(k + 1), at(k + 2), p / double(kPieces)));
       };
       const double youth = (k + (piece + 1.0) / kPieces) / (n - 1);
-      cv::line(opacity, point(piece), point(piece + 1), cv::Scalar(200 * youth),
-               std::max(1, static_cast<int>(std::lround(3 * scale * youth))), cv::LINE_AA,
+      cv::line(opacity, point(piece), point(piece + 1), cv::Scalar(225 * youth),
+               std::max(1, static_cast<int>(std::lround(4 * scale * youth))), cv::LINE_AA,
                kSubpixelBits);
     }
   const cv::Rect area = cv::boundingRect(opacity);

@@ -100,11 +100,12 @@ void add_prediction(std::vector<Reading>& readings, const Trajectory& prediction
         }
     if (n < 3) continue;
     // Of the distance from the marks, what their noise does not explain. The error of a fit is the
-    // same in frames that follow one another and in every stride: each says little of its own.
+    // same in frames that follow one another and in every stride: each says little of its own, and
+    // the less the worse the fit is than the marks.
     const double noise = std::pow(noise_px(prior, part), 2);
-    const Vector2d own_px2 = (squared / n).array() - 0.7 * noise;
-    const Vector2d variance_px2 =
-        kFramesAlike * own_px2.cwiseMax(std::max(0.15 * noise, kLeastPredictionVariance));
+    const Eigen::Array2d own_px2 =
+        (squared.array() / n - 0.7 * noise).max(std::max(0.15 * noise, kLeastPredictionVariance));
+    const Vector2d variance_px2 = kFramesAlike * own_px2 * (1 + own_px2 / noise);
     for (const TrajectoryFrame& frame : prediction.frames)
       if (frame.frame >= first && frame.frame <= last && frame[part].present())
         readings.push_back({part, frame.frame, frame[part].p_px, variance_px2});

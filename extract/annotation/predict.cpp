@@ -6,7 +6,6 @@
 
 #include "extract/annotation/asking.h"
 #include "extract/leg_identity.h"
-#include "extract/marked.h"
 #include "extract/track.h"
 
 namespace stride {
@@ -23,7 +22,6 @@ bool can_be_tracked(const Keypoints& keypoints) {
 /// Clicked frames whose legs move as if they were named the wrong way round.
 std::vector<int> suspected_swaps(const Trajectory& marks) {
   std::vector<int> suspects;
-  if (are_labels(marks)) return suspects;
   for (const LegSwap& swap : repair_legs(marks).swaps)
     for (const TrajectoryFrame& frame : marks.frames)
       if (frame.frame >= swap.first_frame && frame.frame <= swap.last_frame)
