@@ -113,17 +113,16 @@ double improbability(const GaitKernel& kernel, bool legs) {
 }
 
 double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
-  const double sum = improbability(kernel, groups.front().group.paired());
+  const double sum = improbability(kernel, /*legs=*/true);
   return std::isfinite(sum) ? sum + surprise(kernel, groups) : sum;
 }
 
 Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
-  const bool legs = groups.front().group.paired();
   double step = 1.8;
   for (int round = 0; round < rounds; ++round, step = std::sqrt(step))
     for (const Hyperparameter& h : kHyperparameters) {
       const bool is_period = h.member == &GaitKernel::period_s;
-      if (is_period && !legs) continue;  // the trunk takes the legs'
+      if (h.member == &GaitKernel::amplitude) continue;  // of the trunk
       descend(
           best, best.cost, is_period ? 1 + 0.02 * (step - 1) : step, 3,
           [&](Fitted& next, double factor) { next.kernel.*h.member *= factor; },

@@ -14,6 +14,7 @@ struct Fitted {
 /// −log probability of the hyperparameters of legs, or of the trunk, before anything is seen.
 double improbability(const GaitKernel& kernel, bool legs);
 
+/// Of the kernels of legs.
 double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups);
 
 /// Multiplies, or else divides, by a factor as long as that lowers the cost.

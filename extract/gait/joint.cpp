@@ -1,6 +1,7 @@
 #include "extract/gait/joint.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
