@@ -2,9 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 
 #include "extract/error.h"
+#include "extract/toml.h"
 #include "shaping/convert.h"
 
 namespace stride {
@@ -73,26 +73,22 @@ void apply(const Setting& setting, ClipOptions& clip) {
 }  // namespace
 
 void load_convert_config(const std::filesystem::path& file, ConvertOptions& options) {
-  std::ifstream in(file);
-  require(in.good(), "{}: cannot be read", file.string());
-  const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(in);
+  const std::vector<TomlSetting> lines = load_toml(file);
   const auto each = [&](auto visit) {
-    for (const CLI::ConfigItem& item : items) {
-      if (item.name == "++" || item.name == "--") continue;  // borders of sections
-      require(item.inputs.size() == 1, "{}: {}: one value is needed", file.string(),
-              item.fullname());
-      visit(item, Setting{file.string(), item.name, item.inputs.front()});
+    for (const TomlSetting& line : lines) {
+      require(line.words.size() == 1, "{}: {}: one value is needed", file.string(), line.key());
+      visit(line, Setting{file.string(), line.name, line.words.front()});
     }
   };
-  each([&](const CLI::ConfigItem& item, const Setting& setting) {
-    if (item.parents.empty()) apply(setting, options.clip);
+  each([&](const TomlSetting& line, const Setting& setting) {
+    if (line.section.empty()) apply(setting, options.clip);
   });
-  each([&](const CLI::ConfigItem& item, const Setting& setting) {
-    if (item.parents.empty()) return;
-    require(item.parents.size() == 2 && item.parents[0] == "clip",
+  each([&](const TomlSetting& line, const Setting& setting) {
+    if (line.section.empty()) return;
+    require(line.section.size() == 2 && line.section[0] == "clip",
             "{}: section [{}] is not known; use [clip.NAME]", file.string(),
-            fmt::join(item.parents, "."));
-    apply(setting, options.by_clip.try_emplace(item.parents[1], options.clip).first->second);
+            fmt::join(line.section, "."));
+    apply(setting, options.by_clip.try_emplace(line.section[1], options.clip).first->second);
   });
 }
 

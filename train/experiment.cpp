@@ -16,33 +16,28 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Job {
-  std::string arm;
+  const ExperimentArm* arm = nullptr;
   int seed = 0;
-  fs::path potential;  // empty: none
   fs::path run;
 };
 
 /// Paired seeds next to each other, so that what is done at any time can be compared.
 std::vector<Job> jobs_of(const ExperimentOptions& options) {
-  std::vector<std::pair<std::string, fs::path>> arms{{"baseline", {}},
-                                                     {"shaped", options.potential}};
-  if (!options.weak.empty()) arms.emplace_back("weak", options.weak);
   std::vector<Job> jobs;
-  for (int seed = 1; seed <= options.seeds; ++seed)
-    for (const auto& [arm, potential] : arms)
-      jobs.push_back({arm, seed, potential, options.runs / arm / std::to_string(seed)});
+  for (int seed = 1; seed <= options.experiment.seeds; ++seed)
+    for (const ExperimentArm& arm : options.experiment.arms)
+      jobs.push_back({&arm, seed, options.runs / arm.name / std::to_string(seed)});
   return jobs;
 }
 
-void begin(const Job& job, const ExperimentOptions& options) {
+void begin(const Job& job) {
   if (fs::exists(job.run / "config.toml")) return;
-  TrainOptions train_options = options.train;
-  train_options.run.seed = job.seed;
-  train_options.run.threads = 1;
-  if (!job.potential.empty()) train_options.shaping.source = job.potential.filename().string();
-  const Demonstration demonstration =
-      load_demonstration(job.potential, {}, train_options.environment);
-  make_run_folder(train_options, demonstration, job.run);
+  const fs::path& potential = job.arm->potential;
+  TrainOptions options = job.arm->train;
+  options.run.seed = job.seed;
+  options.run.threads = 1;
+  if (!potential.empty()) options.shaping.source = potential.filename().string();
+  make_run_folder(options, load_demonstration(potential, {}, options.environment), job.run);
 }
 
 struct FileCloser {
@@ -67,7 +62,7 @@ std::string work_on(const Job& job, const std::atomic<bool>& stop) {
 /// Copies what a reader needs of each run.
 void copy_runs(const std::vector<Job>& jobs, const fs::path& report) {
   for (const Job& job : jobs) {
-    const fs::path to = report / job.arm / std::to_string(job.seed);
+    const fs::path to = report / job.arm->name / std::to_string(job.seed);
     for (const char* name : {"config.toml", "curve.csv", "timing.csv"})
       write_file_atomically(to / name, read_file(job.run / name));
   }
@@ -77,16 +72,15 @@ void copy_runs(const std::vector<Job>& jobs, const fs::path& report) {
 
 bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
                     std::FILE* messages) {
-  require(options.seeds >= 1, "--seeds {}: must be at least 1", options.seeds);
   const std::vector<Job> jobs = jobs_of(options);
-  for (const Job& job : jobs) begin(job, options);
+  for (const Job& job : jobs) begin(job);
   Crew crew(options.jobs);
   crew.run(static_cast<int>(jobs.size()), [&](int i) {
     const Job& job = jobs[static_cast<std::size_t>(i)];
     if (stop || fs::exists(job.run / "finished")) return;
-    fmt::print(messages, "{} seed {}: begins\n", job.arm, job.seed);
+    fmt::print(messages, "{} seed {}: begins\n", job.arm->name, job.seed);
     const std::string outcome = work_on(job, stop);
-    fmt::print(messages, "{} seed {}: {}\n", job.arm, job.seed, outcome);
+    fmt::print(messages, "{} seed {}: {}\n", job.arm->name, job.seed, outcome);
     std::fflush(messages);
   });
   if (stop) return false;
@@ -95,9 +89,10 @@ bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& s
   for (const Job& job : jobs) runs.push_back(job.run);
   const std::vector<Arm> arms = arms_of(runs);
   copy_runs(jobs, options.report);
+  const ExperimentFile& experiment = options.experiment;
   write_file_atomically(options.report / "results.md",
-                        experiment_report(results_of(arms, options.train.run.decisions),
-                                          options.train.run.decisions, options.command));
+                        experiment_report(experiment.title, results_of(arms, experiment.decisions),
+                                          experiment.decisions, options.command));
   for (const char* against : {"decisions", "wall"})
     plot(arms, {.against = against, .out = options.report / against});
   return true;

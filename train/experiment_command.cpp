@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <memory>
 #include <optional>
@@ -14,34 +15,43 @@ namespace {
 std::atomic<bool> interrupted = false;
 
 struct Request {
-  std::string name, preset = "shaping";
-  std::vector<std::string> assignments;
+  std::string name, potential;
+  std::vector<std::string> settings;
+  std::optional<int> seeds;
   std::optional<std::int64_t> decisions;
   ExperimentOptions options;
 };
 
 /// The command that repeats it.
 std::string command_of(const Request& request) {
-  const ExperimentOptions& options = request.options;
-  std::string command = fmt::format("stride experiment {} --potential {}", request.name,
-                                    options.potential.filename().string());
-  if (!options.weak.empty()) command += fmt::format(" --weak {}", options.weak.filename().string());
-  command += fmt::format(" --preset {} --seeds {} --decisions {}", request.preset, options.seeds,
-                         options.train.run.decisions);
-  for (const std::string& assignment : request.assignments)
-    command += fmt::format(" --set {}", assignment);
+  std::string command = fmt::format("stride experiment {}", request.name);
+  if (!request.potential.empty()) command += fmt::format(" --potential {}", request.potential);
+  if (request.seeds) command += fmt::format(" --seeds {}", *request.seeds);
+  if (request.decisions) command += fmt::format(" --decisions {}", *request.decisions);
+  for (const std::string& setting : request.settings) command += fmt::format(" --set {}", setting);
   return command;
 }
 
-void experiment_as_requested(Request& request) {
-  require(request.name == "baseline-vs-shaping", "experiment '{}': must be baseline-vs-shaping",
-          request.name);
-  ExperimentOptions& options = request.options;
-  read_toml(preset_file(request.preset), options.train);
-  for (const std::string& assignment : request.assignments) set_option(assignment, options.train);
-  if (request.decisions) options.train.run.decisions = *request.decisions;
-  options.train.check();
-  if (options.runs.empty()) options.runs = std::filesystem::path("runs") / request.name;
+/// `potential` instead of the file that the first shaped arm has, wherever that is used.
+void replace_potential(const std::filesystem::path& potential, std::vector<ExperimentArm>& arms) {
+  const auto shaped =
+      std::ranges::find_if(arms, [](const ExperimentArm& arm) { return !arm.potential.empty(); });
+  require(shaped != arms.end(), "--potential {}: no arm has one", potential.string());
+  const std::filesystem::path replaced = shaped->potential;
+  for (ExperimentArm& arm : arms)
+    if (arm.potential == replaced) arm.potential = potential;
+}
+
+void experiment_as_requested(const Request& request) {
+  ExperimentOptions options = request.options;
+  std::vector<std::string> settings = request.settings;
+  if (request.decisions) settings.push_back(fmt::format("run.decisions={}", *request.decisions));
+  const std::filesystem::path file = experiment_file(request.name);
+  options.experiment = load_experiment(file, settings);
+  if (request.seeds) options.experiment.seeds = *request.seeds;
+  if (!request.potential.empty()) replace_potential(request.potential, options.experiment.arms);
+  if (options.runs.empty())
+    options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
   if (options.report.empty()) options.report = options.runs / "report";
   options.command = command_of(request);
   std::signal(SIGINT, [](int) { interrupted = true; });
@@ -55,18 +65,23 @@ void experiment_as_requested(Request& request) {
 }  // namespace
 
 void add_experiment_command(CLI::App& app) {
-  auto* command = app.add_subcommand("experiment", "Run an experiment of the paper over seeds");
+  auto* command = app.add_subcommand(
+      "experiment", "Train the arms of an experiment over seeds and compare their curves");
   const auto request = std::make_shared<Request>();
   ExperimentOptions& options = request->options;
-  command->add_option("name", request->name, "baseline-vs-shaping")->required();
-  command->add_option("--potential", options.potential, "Of the arm `shaped`")->required();
-  command->add_option("--weak", options.weak, "Of a third arm, made of a weak agent's own run");
-  command->add_option("--seeds", options.seeds, "1, 2, …")->capture_default_str();
-  command->add_option("--decisions", request->decisions, "Of each run");
+  command
+      ->add_option("NAME", request->name,
+                   "A folder of train/experiments, as baseline-vs-shaping; or an experiment.toml")
+      ->required();
+  command->add_option("--potential", request->potential,
+                      "Instead of the potential of the first shaped arm");
+  command->add_option("--seeds", request->seeds, "1, 2, … so many, instead of the file's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
   command->add_option("--jobs", options.jobs, "Runs side by side")->capture_default_str();
-  command->add_option("--preset", request->preset, "Of every run")->capture_default_str();
-  command->add_option("--set", request->assignments, "One setting of every run");
-  command->add_option("--out", options.runs, "Folder of the runs; runs/<name> if not given");
+  command->add_option("--set", request->settings,
+                      "One setting of every arm that does not say otherwise");
+  command->add_option("--out", options.runs, "Folder of the runs; runs/NAME if not given");
   command->add_option("--report", options.report,
                       "Folder of curves and figures; OUT/report if not given");
   command->callback([request] { experiment_as_requested(*request); });

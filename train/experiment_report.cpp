@@ -29,14 +29,18 @@ double student_95(std::size_t degrees) {
 }
 
 /// Mean of the evaluations of the twentieth of the budget that ends at `share` of it; an
-/// evaluation happens up to a round after its time.
+/// evaluation happens up to a round after its time. Where there is none, the last before; NaN if
+/// there is none either.
 double distance_at(const Table& curve, double share, double budget) {
   const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
   std::vector<double> values;
-  for (const auto& row : curve.rows)
-    if (row[x] > (share - 0.045) * budget && row[x] <= (share + 0.005) * budget)
-      values.push_back(row[y]);
-  return values.empty() ? NAN : mean(values);
+  double last = NAN;
+  for (const auto& row : curve.rows) {
+    if (row[x] > (share + 0.005) * budget) break;
+    last = row[y];
+    if (row[x] > (share - 0.045) * budget) values.push_back(last);
+  }
+  return values.empty() ? last : mean(values);
 }
 
 std::optional<Reached> first_reached(const Table& curve, const Table& timing, double distance_m) {
@@ -52,7 +56,7 @@ std::optional<Reached> first_reached(const Table& curve, const Table& timing, do
 }
 
 std::string plus_minus(const std::vector<double>& values, int digits) {
-  if (values.empty()) return "–";
+  if (values.empty() || !std::isfinite(mean(values))) return "–";
   if (values.size() < 2) return fmt::format("{:.{}f}", mean(values), digits);
   const double error = standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
   return fmt::format("{:.{}f} ± {:.{}f}", mean(values), digits, error, digits);
@@ -125,16 +129,16 @@ PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<d
           std::exp(mean(logs) + half_width)};
 }
 
-std::string experiment_report(const std::vector<ArmResult>& results, std::int64_t decisions,
-                              const std::string& command) {
+std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,
+                              std::int64_t decisions, const std::string& command) {
   const auto at = [decisions](double share) {
     return fmt::format("{:.0f} k", share * static_cast<double>(decisions) / 1000);
   };
   std::string text = fmt::format(
-      "# Baseline against shaping\n\n    {}\n\n"
+      "# {}\n\n    {}\n\n"
       "Distance in 10 s (m) without noise, mean ± standard error over {} seeds, after so many "
       "decisions (evaluations of the twentieth of the budget before):\n\n",
-      command, results.front().distance_m[0].size());
+      title, command, results.front().distance_m[0].size());
   text += table(results, 0, kBudgetShares, at, [](const ArmResult& arm, std::size_t k) {
     return plus_minus(arm.distance_m[k], 1);
   });

@@ -23,7 +23,8 @@ struct Reached {
 /// What the curves of one arm say, an element a seed.
 struct ArmResult {
   std::string label;
-  /// Mean of the evaluations in the twentieth of the budget that ends at each of kBudgetShares, m.
+  /// Mean of the evaluations in the twentieth of the budget that ends at each of kBudgetShares, or
+  /// the last before, m; NaN where there is none.
   std::array<std::vector<double>, kBudgetShares.size()> distance_m;
   /// The first evaluation that reached each of kDistances_m; none if no evaluation did.
   std::array<std::vector<std::optional<Reached>>, kDistances_m.size()> reached;
@@ -39,7 +40,7 @@ struct PairedRatio {
 PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<double>& control);
 
 /// results.md: distances, ratios to the first arm and times to distances, as tables.
-std::string experiment_report(const std::vector<ArmResult>& results, std::int64_t decisions,
-                              const std::string& command);
+std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,
+                              std::int64_t decisions, const std::string& command);
 
 }  // namespace stride

@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 #include <variant>
 
 #include "extract/error.h"
-#include "extract/file.h"
+#include "extract/toml.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -224,34 +222,6 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-void apply(const std::vector<CLI::ConfigItem>& items, const std::string& source,
-           TrainOptions& options) {
-  std::vector<Field> known = fields(options);
-  for (const CLI::ConfigItem& item : items) {
-    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks around a section
-    const std::string key = item.fullname();
-    const auto field = std::ranges::find(known, key, &Field::key);
-    if (field == known.end()) {
-      const auto nearest = std::ranges::min_element(
-          known, {}, [&](const Field& f) { return letters_apart(f.key, key); });
-      throw Error(fmt::format("{}: {}: unknown key; did you mean {}?", source, key, nearest->key));
-    }
-    require(std::visit(Assign{item.inputs}, field->value), "{}: {} = {}: must be {}", source, key,
-            fmt::join(item.inputs, ", "), kind(field->value));
-  }
-}
-
-void parse(const std::string& toml, const std::string& source, TrainOptions& options) {
-  std::istringstream in(toml);
-  std::vector<CLI::ConfigItem> items;
-  try {
-    items = CLI::ConfigTOML().from_config(in);
-  } catch (const CLI::Error& error) {  // CLI11's way to report; ours names the file
-    throw Error(fmt::format("{}: not TOML: {}", source, error.what()));
-  }
-  apply(items, source, options);
-}
-
 void check_range(const Field& field, double value, const std::string& text) {
   const bool below_one = field.max == kBelowOne;
   require(value >= field.min && value <= field.max, "{} = {}: must be in [{}, {}{}", field.key,
@@ -284,14 +254,31 @@ void TrainOptions::check() const {
           exploration.quiet_share + exploration.parameter_share);
 }
 
+void set_options(const std::vector<TomlSetting>& settings, const std::string& source,
+                 TrainOptions& options) {
+  std::vector<Field> known = fields(options);
+  for (const TomlSetting& setting : settings) {
+    const std::string key = setting.key();
+    const auto field = std::ranges::find(known, key, &Field::key);
+    if (field == known.end()) {
+      const auto nearest = std::ranges::min_element(
+          known, {}, [&](const Field& f) { return letters_apart(f.key, key); });
+      throw Error(fmt::format("{}: {}: unknown key; did you mean {}?", source, key, nearest->key));
+    }
+    require(std::visit(Assign{setting.words}, field->value), "{}: {} = {}: must be {}", source, key,
+            fmt::join(setting.words, ", "), kind(field->value));
+  }
+}
+
 void read_toml(const fs::path& file, TrainOptions& options) {
-  parse(read_file(file), file.string(), options);
+  set_options(load_toml(file), file.string(), options);
 }
 
 void set_option(std::string_view assignment, TrainOptions& options) {
   require(assignment.find('=') != std::string_view::npos,
           "--set {}: must be KEY=VALUE, such as agent.gamma=0.99", assignment);
-  parse(std::string(assignment) + '\n', fmt::format("--set {}", assignment), options);
+  const std::string source = fmt::format("--set {}", assignment);
+  set_options(parse_toml(std::string(assignment) + '\n', source), source, options);
 }
 
 std::string to_toml(const TrainOptions& options, std::string_view heading) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "extract/toml.h"
 #include "train/agent.h"
 #include "train/explorer.h"
 #include "train/observation.h"
@@ -77,6 +78,9 @@ struct TrainOptions {
 /// Changes the options that a TOML file names. Throws Error naming file, key and cure where a key
 /// is not known or its value is of another kind.
 void read_toml(const std::filesystem::path& file, TrainOptions& options);
+/// The same for settings of a file that says more than that; errors name `source`.
+void set_options(const std::vector<TomlSetting>& settings, const std::string& source,
+                 TrainOptions& options);
 /// The same for one `key=value` of a command line.
 void set_option(std::string_view assignment, TrainOptions& options);
 

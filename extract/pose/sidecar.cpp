@@ -4,11 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <sstream>
 
 #include "extract/body_part.h"
 #include "extract/error.h"
-#include "extract/file.h"
+#include "extract/toml.h"
 
 namespace stride {
 namespace {
@@ -131,17 +130,8 @@ void check(const PoseSidecar& s) {
 PoseSidecar load_pose_sidecar(const std::filesystem::path& file) {
   PoseSidecar sidecar;
   sidecar.file = file.string();
-  std::istringstream in(read_file(file));
-  std::vector<CLI::ConfigItem> items;
-  try {
-    items = CLI::ConfigTOML().from_config(in);
-  } catch (const CLI::Error& error) {
-    throw Error(fmt::format("{}: not valid TOML: {}", sidecar.file, error.what()));
-  }
-  for (const CLI::ConfigItem& item : items) {
-    if (item.name == "++" || item.name == "--") continue;  // borders of sections
-    apply({sidecar.file, item.fullname(), item.inputs}, sidecar);
-  }
+  for (const TomlSetting& setting : load_toml(file))
+    apply({sidecar.file, setting.key(), setting.words}, sidecar);
   check(sidecar);
   return sidecar;
 }

@@ -103,6 +103,15 @@ TEST(Experiment, DistancesAreThoseOfTheTwentiethOfTheBudgetThatEndsThere) {
   }
 }
 
+TEST(Experiment, WhereNothingWasEvaluatedNearAShareItIsTheLastBefore) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);  // evaluated every 1000, 4 at 4000
+  const auto results = results_of(arms_of({folder / "arm" / "1"}), 9'400);
+  EXPECT_DOUBLE_EQ(results[0].distance_m[3][0], 4);  // half of it: 4277 to 4747
+  const auto short_budget = results_of(arms_of({folder / "arm" / "1"}), -1);
+  EXPECT_THAT(experiment_report("T", short_budget, -1, ""), ::testing::HasSubstr("| arm | – |"));
+}
+
 TEST(Experiment, TimesAreThoseOfTheFirstEvaluationThatReachedADistance) {
   TemporaryFolder folder;
   write_run(folder / "arm" / "1", 1);
@@ -112,7 +121,7 @@ TEST(Experiment, TimesAreThoseOfTheFirstEvaluationThatReachedADistance) {
   EXPECT_EQ(results[0].reached[0][0]->wall_s, 300);
   EXPECT_EQ(results[0].reached[1][1]->decisions, 4000);  // 10 m: 12 is the first
   EXPECT_FALSE(results[0].reached[2][0]);                // 15 m: ends at 10
-  EXPECT_THAT(experiment_report(results, 10'000, "stride experiment"),
+  EXPECT_THAT(experiment_report("Title", results, 10'000, "stride experiment"),
               ::testing::HasSubstr("| arm | 4 ± 1 k; 3.5 ± 1.5 min"));
 }
 

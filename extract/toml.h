@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stride {
+
+/// One line of a TOML file.
+struct TomlSetting {
+  std::vector<std::string> section;  // [clip.NAME]: clip, NAME
+  std::string name;
+  std::vector<std::string> words;  // the value; of a list its elements
+
+  std::string key() const;  // section and name, joined by dots
+};
+
+/// The settings of a TOML file in its order. Throws Error where it cannot be read or is not TOML.
+std::vector<TomlSetting> load_toml(const std::filesystem::path& file);
+/// The same of a text, whose errors name `source`.
+std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& source);
+
+}  // namespace stride
