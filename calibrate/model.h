@@ -16,7 +16,7 @@ using Vec3 = std::array<double, 3>;
 
 /// OpenSim's SimmSpline: a cubic spline through (x, y) with SIMM's end conditions, linear outside.
 /// A single value is a constant; two points are a line.
-struct Spline {
+struct SimmSpline {
   std::vector<double> x, y;
 };
 
@@ -44,7 +44,7 @@ struct TransformAxis {
   Kind kind = Kind::constant;
   double constant = 0;              // kind constant
   double slope = 0, intercept = 0;  // kind linear: slope · q + intercept
-  Spline spline;                    // kind spline
+  SimmSpline spline;                // kind spline
 };
 
 struct Joint {
@@ -71,7 +71,7 @@ struct PathPoint {
   Vec3 location_m{};    // fixed, conditional
   int coordinate = -1;  // conditional: present while range_min ≤ q ≤ range_max
   double range_min = 0, range_max = 0;
-  std::array<Spline, 3> location{};  // moving: x, y, z against their coordinate
+  std::array<SimmSpline, 3> location{};  // moving: x, y, z against their coordinate
   std::array<int, 3> location_coordinate{-1, -1, -1};
 };
 

@@ -70,9 +70,9 @@ int coordinate_of(const Model& model, const OsimElement& from, const char* socke
   return coordinate_named(model, at, at.text());
 }
 
-Spline read_spline(const OsimElement& from, const char* property) {
+SimmSpline read_spline(const OsimElement& from, const char* property) {
   const OsimElement function = from.object(property);
-  Spline spline;
+  SimmSpline spline;
   if (function.tag() == "Constant") {
     spline.y = {function.number("value", 0)};
     spline.x = {0};

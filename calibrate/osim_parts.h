@@ -22,7 +22,7 @@ int coordinate_of(const Model& model, const OsimElement& from, const char* socke
 int coordinate_named(const Model& model, const OsimElement& at, const std::string& path);
 
 /// A property that is a SimmSpline or a Constant, maybe scaled.
-Spline read_spline(const OsimElement& from, const char* property);
+SimmSpline read_spline(const OsimElement& from, const char* property);
 
 void read_bodies_and_joints(const OsimElement& root, bool version4, Model& model);
 void read_muscle(Model& model, const OsimElement& from);

@@ -40,7 +40,7 @@ std::vector<double> sixths_of_second_derivatives(const std::vector<double>& x,
 
 }  // namespace
 
-SplineCoefficients spline_coefficients(const Spline& spline) {
+SplineCoefficients spline_coefficients(const SimmSpline& spline) {
   const std::size_t n = spline.x.size();
   SplineCoefficients result{spline.x, spline.y, {}, {}, {}};
   result.b.assign(n, 0), result.c.assign(n, 0), result.d.assign(n, 0);

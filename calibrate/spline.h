@@ -9,7 +9,7 @@
 
 namespace stride {
 
-/// The polynomials of a Spline: on [x[i], x[i+1]] with h = x - x[i],
+/// The polynomials of a SimmSpline: on [x[i], x[i+1]] with h = x - x[i],
 /// y = y[i] + h (b[i] + h (c[i] + h d[i])); a straight line of the end's slope outside.
 struct SplineCoefficients {
   std::vector<double> x, y, b, c, d;
@@ -22,7 +22,7 @@ struct SplineValue {
 /// The coefficients as OpenSim's SimmSpline has them. SIMM took Forsythe, Malcolm and Moler's
 /// spline (1977, §4.4): at either end the third derivative is that of the cubic through the four
 /// outermost points. A single point is a constant, two are a line.
-SplineCoefficients spline_coefficients(const Spline& spline);
+SplineCoefficients spline_coefficients(const SimmSpline& spline);
 
 /// Index of the polynomial that holds at x; -1 before the first point, the last index after the
 /// last.

@@ -38,12 +38,12 @@ double weight_N(const Model& model) {
   return -mass * model.gravity_m_s2[1];
 }
 
-std::vector<Stance> stances(const Rollout& rollout, const Model& model) {
+std::vector<FootContact> foot_contacts(const Rollout& rollout, const Model& model) {
   const double threshold = kBearing * weight_N(model);
   const std::array<int, 2> ankle{model.body("talus_r"), model.body("talus_l")};
   const auto& frames = rollout.frames;
   const double step_s = frames.size() > 1 ? frames[1].state.time_s - frames[0].state.time_s : 0.01;
-  std::vector<Stance> all;
+  std::vector<FootContact> all;
   for (int side = 0; side < 2; ++side) {
     std::vector<bool> down;
     for (const RolloutFrame& frame : frames)
@@ -62,7 +62,7 @@ std::vector<Stance> stances(const Rollout& rollout, const Model& model) {
                      .start_x_m = frames[i].kinematics.bodies[body].position.x});
     }
   }
-  std::ranges::sort(all, {}, &Stance::start_s);
+  std::ranges::sort(all, {}, &FootContact::start_s);
   return all;
 }
 
@@ -78,7 +78,7 @@ GaitSummary gait_of(const Rollout& rollout, const Model& model) {
   gait.speed_m_s = speed(first, last);
   gait.last_speed_m_s = speed(later, last);
 
-  const std::vector<Stance> all = stances(rollout, model);
+  const std::vector<FootContact> all = foot_contacts(rollout, model);
   std::vector<double> step_times, step_lengths, stride_times, duties, leg_phases;
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i].side == all[i - 1].side) continue;
@@ -87,12 +87,12 @@ GaitSummary gait_of(const Rollout& rollout, const Model& model) {
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto again = std::ranges::find(all.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                         all.end(), all[i].side, &Stance::side);
+                                         all.end(), all[i].side, &FootContact::side);
     if (again == all.end()) continue;
     const double stride = again->start_s - all[i].start_s;
     stride_times.push_back(stride);
     duties.push_back((all[i].end_s - all[i].start_s) / stride);
-    for (const Stance& other : all) {
+    for (const FootContact& other : all) {
       if (other.side == all[i].side || other.start_s < all[i].start_s ||
           other.start_s >= again->start_s)
         continue;

@@ -6,8 +6,8 @@
 
 namespace stride {
 
-/// When a foot is on the ground.
-struct Stance {
+/// A time that a foot spends on the ground: a stance.
+struct FootContact {
   int side = 0;                   // 0 right, 1 left
   double start_s = 0, end_s = 0;  // of contact
   double start_x_m = 0;           // of the ankle at the strike
@@ -16,7 +16,7 @@ struct Stance {
 /// Stances of both feet, by time: a foot is on the ground while it bears more than 5 % of the
 /// body's weight; gaps and contacts shorter than 30 ms are noise. A stance that begins with the
 /// rollout or is cut by its end is left out.
-std::vector<Stance> stances(const Rollout& rollout, const Model& model);
+std::vector<FootContact> foot_contacts(const Rollout& rollout, const Model& model);
 
 /// Figures of running, over the steps of the rollout; NaN where there are too few.
 struct GaitSummary {

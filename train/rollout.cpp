@@ -69,8 +69,8 @@ Rollout record_episode(const Policy<Scalar>& policy, RunnerEnvironment& environm
 
 CalibratedTrajectory demonstration(const Rollout& rollout, const Model& model, double from_s) {
   std::vector<double> strikes;  // of the right foot
-  for (const Stance& stance : stances(rollout, model))
-    if (stance.side == 0 && stance.start_s >= from_s) strikes.push_back(stance.start_s);
+  for (const FootContact& contact : foot_contacts(rollout, model))
+    if (contact.side == 0 && contact.start_s >= from_s) strikes.push_back(contact.start_s);
   require(strikes.size() >= 3,
           "the runner takes {} strides after {} s: a demonstration needs two; train longer, or "
           "choose an earlier --from",

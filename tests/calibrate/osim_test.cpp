@@ -14,7 +14,7 @@ const std::filesystem::path kData = STRIDE_TEST_DATA;
 
 // Everything that a model says, with every digit: two models are the same if their texts are.
 
-std::string text(const Spline& s) {
+std::string text(const SimmSpline& s) {
   return fmt::format("spline {} {}", fmt::join(s.x, " "), fmt::join(s.y, " "));
 }
 
@@ -28,7 +28,7 @@ std::string text(const PathPoint& p) {
       fmt::format("point {} {} {} {} {} {} {} {}", p.name, static_cast<int>(p.kind), p.body,
                   fmt::join(p.kind == PathPoint::Kind::moving ? Vec3{} : p.location_m, " "),
                   p.coordinate, p.range_min, p.range_max, fmt::join(p.location_coordinate, " "));
-  for (const Spline& each : p.location) all += text(each);
+  for (const SimmSpline& each : p.location) all += text(each);
   return all + "\n";
 }
 

@@ -22,7 +22,7 @@ const TransformAxis& knee_translation(const Model& model, int axis) {
 
 // Every figure was recorded from OpenSim 4.0 with twelve digits; the angles reach beyond the
 // spline on either side.
-TEST(Spline, IsOpenSimsSimmSplineAndItsDerivative) {
+TEST(SimmSpline, IsOpenSimsSimmSplineAndItsDerivative) {
   const Model model = runner();
   const Table recorded = load_csv(kData / "opensim_knee_kinematics.csv");
   ASSERT_GT(recorded.rows.size(), 150u);
@@ -37,7 +37,7 @@ TEST(Spline, IsOpenSimsSimmSplineAndItsDerivative) {
   }
 }
 
-TEST(Spline, SecondDerivativeIsThatOfTheFirst) {
+TEST(SimmSpline, SecondDerivativeIsThatOfTheFirst) {
   const SplineCoefficients spline = spline_coefficients(knee_translation(runner(), 0).spline);
   const double step = 1e-6;
   for (double x = -2.3; x < 2.3; x += 0.0371) {
@@ -48,15 +48,15 @@ TEST(Spline, SecondDerivativeIsThatOfTheFirst) {
   }
 }
 
-TEST(Spline, ReproducesACubicBecauseOfItsEndConditions) {
+TEST(SimmSpline, ReproducesACubicBecauseOfItsEndConditions) {
   const auto cubic = [](double x) { return 2 - x + 0.5 * x * x - 0.25 * x * x * x; };
-  Spline spline;
+  SimmSpline spline;
   for (double x : {-1.0, -0.2, 0.1, 0.9, 1.5}) spline.x.push_back(x), spline.y.push_back(cubic(x));
   const SplineCoefficients coefficients = spline_coefficients(spline);
   for (double x = -1; x < 1.5; x += 0.01) EXPECT_NEAR(evaluate(coefficients, x), cubic(x), 1e-14);
 }
 
-TEST(Spline, OfOnePointIsAConstantAndOfTwoALine) {
+TEST(SimmSpline, OfOnePointIsAConstantAndOfTwoALine) {
   const SplineCoefficients constant = spline_coefficients({{0}, {3}});
   EXPECT_EQ(evaluate(constant, -7.0), 3);
   EXPECT_EQ(evaluate_with_derivatives(constant, 7).first, 0);
@@ -72,7 +72,7 @@ struct Dual {  // the shape of ceres::Jet
   friend Dual operator*(const Dual& x, double y) { return {x.a * y, x.v * y}; }
 };
 
-TEST(Spline, CarriesDerivativesThroughATypeOfAutomaticDifferentiation) {
+TEST(SimmSpline, CarriesDerivativesThroughATypeOfAutomaticDifferentiation) {
   const SplineCoefficients spline = spline_coefficients(knee_translation(runner(), 1).spline);
   for (double x : {-2.5, -2.0944, -1.0, 0.0, 0.159149, 1.9, 2.0944, 2.4}) {
     const Dual found = evaluate(spline, Dual{x, 1});

@@ -77,10 +77,10 @@ TEST(HumanGait, HoldsTheRunnersThatItIsOf) {
 }
 
 TEST_F(Clockwork, ChatterShorterThan30MsIsNoStep) {
-  const std::size_t steps = stances(rollout_, model_).size();
+  const std::size_t steps = foot_contacts(rollout_, model_).size();
   for (std::size_t i = 20; i < rollout_.frames.size(); i += 35)
     rollout_.frames[i].kinematics.ground_reaction_N[0].y = 0;  // within a stance, or in the air
-  EXPECT_EQ(stances(rollout_, model_).size(), steps);
+  EXPECT_EQ(foot_contacts(rollout_, model_).size(), steps);
 }
 
 TEST_F(Clockwork, ARunnerThatStandsHasNoSteps) {
