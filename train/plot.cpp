@@ -103,22 +103,26 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   const std::string name = options.out.filename().string();
   const std::map<std::string, std::string> axes{
       {"decisions", "decisions"}, {"simulated", "simulated time (h)"}, {"wall", "wall clock (h)"}};
-  constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#66a182",
-                                      "#edae49", "#5d3a9b", "#555555"};
+  constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#66a182", "#edae49", "#5d3a9b",
+                                      "#555555", "#00b4d8", "#8d5524", "#e377c2", "#7cb518"};
+  const bool crowded = bands.size() > 4;
   std::string lines;
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const char* colour = kColours[i % std::size(kColours)];
     lines += fmt::format(
         "{} '{}.csv' index {} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
-        "transparent solid 0.2 noborder notitle, \\\n  '' index {} using 1:2 with lines lw 2 lc "
+        "transparent solid {} noborder notitle, \\\n  '' index {} using 1:2 with lines lw 2 lc "
         "rgb '{}' title \"{}\"",
-        i == 0 ? "plot" : ", \\\n ", name, i, colour, i, colour, bands[i].label);
+        i == 0 ? "plot" : ", \\\n ", name, i, colour, crowded ? 0.1 : 0.2, i, colour,
+        bands[i].label);
   }
   std::string script = fmt::format(
       "# Run gnuplot on this file in its folder. Mean and standard error over seeds.\n"
-      "set datafile separator ','\nset rmargin 5\nset key left top\nset grid lc rgb '#dddddd'\n"
-      "set xlabel '{}'\nset ylabel '{}' noenhanced\nset title \"{}\" noenhanced\n",
-      axes.at(options.against),
+      "set datafile separator ','\nset {}\nset grid lc rgb '#dddddd'\n"
+      "set autoscale xfix\nset format x '{}'\nset xlabel '{}'\nset ylabel '{}' noenhanced\n"
+      "set title \"{}\" noenhanced\n",
+      crowded ? "key outside right top Left reverse" : "rmargin 5\nset key left top",
+      options.against == "decisions" ? "%.0s%c" : "%g", axes.at(options.against),
       options.column == "evaluation_distance_m" ? "distance in 10 s (m)" : options.column,
       options.title);
   for (const auto& [terminal, extension] :
