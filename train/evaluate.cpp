@@ -130,6 +130,8 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   TrainOptions train_options = load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
   if (!options.rules.empty()) train_options.environment.rules = options.rules;
+  if (!options.engine.empty()) train_options.environment.engine = options.engine;
+  train_options.environment.reference.clear();  // only training episodes start on it
   train_options.check();
   const Demonstration shaped_by = load_run_demonstration(train_options, run);
   const Potential* potential = shaped_by.potential ? &*shaped_by.potential : nullptr;
@@ -148,10 +150,11 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
       rollouts, {}, [](const Rollout& rollout) { return rollout.summary.distance_m; });
   evaluation.gait = gait_of(farthest, model);
 
-  evaluation.file = run / "evaluation.json";
+  const fs::path out = options.out.empty() ? run : options.out;
+  evaluation.file = out / "evaluation.json";
   write_file_atomically(evaluation.file, to_json(evaluation, options).dump(1) + "\n");
-  write_file_atomically(run / "evaluation.mot", motion_file(farthest));
-  write_file_atomically(run / "evaluation.sto", states_file(farthest));
+  write_file_atomically(out / "evaluation.mot", motion_file(farthest));
+  write_file_atomically(out / "evaluation.sto", states_file(farthest));
   if (!options.trajectory.empty()) {
     CalibratedTrajectory own = demonstration(farthest, model, options.from_s);
     own.source = fs::absolute(run).lexically_normal().filename().string();
@@ -164,7 +167,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
                                            ? run
                                            : fs::path(train_options.shaping.source).parent_path());
     write_film(farthest, model, fmt::format("{:.1f} m", farthest.summary.distance_m), source,
-               run / "evaluation.mp4");
+               out / "evaluation.mp4");
   }
   return evaluation;
 }

@@ -25,6 +25,8 @@ void add_evaluate_command(CLI::App& app) {
   command->add_option("--difficulty", options.difficulty, "0, 1, 2; -1: as in training")
       ->capture_default_str();
   command->add_option("--rules", options.rules, "clean or nips2017; as in training if not given");
+  command->add_option("--engine", options.engine, "planar or simbody; as in training if not given");
+  command->add_option("--out", options.out, "Folder of what is written; the run's if not given");
   command->add_option("--trajectory", options.trajectory,
                       "Write this run as a demonstration, NAME.calibrated.csv");
   command->add_option("--from", options.from_s, "Where the demonstration begins, s")

@@ -3,6 +3,8 @@ set datafile separator ','
 set rmargin 5
 set key left top
 set grid lc rgb '#dddddd'
+set autoscale xfix
+set format x '%.0s%c'
 set xlabel 'decisions'
 set ylabel 'distance in 10 s (m)' noenhanced
 set title "" noenhanced

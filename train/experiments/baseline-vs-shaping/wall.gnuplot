@@ -3,6 +3,8 @@ set datafile separator ','
 set rmargin 5
 set key left top
 set grid lc rgb '#dddddd'
+set autoscale xfix
+set format x '%g'
 set xlabel 'wall clock (h)'
 set ylabel 'distance in 10 s (m)' noenhanced
 set title "" noenhanced
