@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "extract/median.h"
+
 namespace stride {
 
 Eigen::Vector4d Bounce::weights(double phase) {
@@ -51,9 +53,7 @@ Bounce measure_bounce(const StrideFit& fit, const Marks& observations) {
     const auto solver = normal.ldlt();
     const Eigen::VectorXd solution = solver.solve(weighted.transpose() * height);
     const Eigen::ArrayXd residual = (height - rows * solution).array().abs();
-    std::vector<double> sorted(residual.data(), residual.data() + n);
-    std::ranges::nth_element(sorted, sorted.begin() + n / 2);
-    const double sd = std::max(1.4826 * sorted[n / 2], 1e-9);
+    const double sd = std::max(1.4826 * median({residual.data(), residual.data() + n}), 1e-9);
     weights = (1 + (residual / (2.5 * sd)).square()).inverse();
     bounce.c = solution.head<4>();
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows.cols(), 4);

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
@@ -14,12 +16,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr int kGuessHarmonics = 4;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A mark relative to the mark of the pelvis in the same frame, with the leg it belongs to.
 struct Relative {

@@ -23,28 +23,38 @@ std::array<double, kPhases> sd_px(const StrideFit& fit, const Directions& direct
   return result;
 }
 
-double leg_px(const Runner& r) {
-  return (r.body[body::thigh] + r.body[body::shank]) * std::exp(r.camera[camera::log_px_per_m]);
-}
-
 }  // namespace
+
+Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& model,
+                         const Calibration& c) {
+  const Directions directions(model);
+  Trajectory fitted = trajectory;
+  for (std::size_t i = 0; i < fitted.frames.size(); ++i)
+    for (const BodyPart part : kBodyParts) {
+      const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
+      const bool known = toe ? c.fit.toes_seen : part != BodyPart::head || c.fit.head_seen;
+      const Eigen::Vector2d z =
+          predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
+      fitted.frames[i][part] =
+          known ? Point{image_px(trajectory, c.observations.to_left, z), 1} : Point{};
+    }
+  return fitted;
+}
 
 Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
                      const Calibration& result) {
   const StrideFit& fit = result.fit;
   const Marks& marks = result.observations;
   const Directions directions(model);
-  Trajectory fitted = trajectory;
+  Trajectory fitted = fitted_points(trajectory, model, result);
   for (const BodyPart part : kBodyParts) {
     const bool seen = marks.count[index(part)] > 0;
     const std::array<double, kPhases> sd = sd_px(fit, directions, part);
     for (std::size_t i = 0; i < fitted.frames.size(); ++i) {
       Point& point = fitted.frames[i][part];
-      point = {};
-      if (!seen) continue;
-      const double u_s = marks.u_s[i], phase = phase_at(fit.runner.cadence.data(), u_s);
-      point.p_px = image_px(trajectory, marks.to_left,
-                            predicted_px(fit, directions, part, static_cast<int>(i), u_s));
+      if (!seen) point = {};
+      if (!point.present()) continue;
+      const double phase = phase_at(fit.runner.cadence.data(), marks.u_s[i]);
       const auto nearest = std::lround(kPhases * (phase - std::floor(phase))) % kPhases;
       const double relative = 30 * sd[static_cast<std::size_t>(nearest)] / leg_px(fit.runner);
       point.confidence = 0.3 / (1 + relative * relative);

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/median.h"
+
 namespace stride {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<Prior> ground_roll(const Trajectory& trajectory) {
   constexpr double kLine = 0.01, kLeast = 0.005, kSure = 0.017;  // rad

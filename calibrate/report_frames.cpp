@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibrate/fitted.h"
 #include "extract/error.h"
 #include "extract/file.h"
 #include "extract/video.h"
@@ -66,15 +67,11 @@ class Tile {
   cv::Mat tile_;
 };
 
-void draw_runner(const Trajectory& trajectory, const Directions& directions, const Calibration& c,
-                 int i, Tile& tile) {
-  const auto place = [&](BodyPart part) {
-    const Eigen::Vector2d z = predicted_px(c.fit, directions, part, i, c.observations.u_s[i]);
-    return image_px(trajectory, c.observations.to_left, z);
-  };
+void draw_runner(const TrajectoryFrame& fitted, const TrajectoryFrame& marked, bool to_left,
+                 Tile& tile) {
   const auto leg = [&](const std::array<BodyPart, 4>& parts, const cv::Scalar& colour) {
-    for (int j = 0; j < (c.fit.toes_seen ? 3 : 2); ++j)
-      tile.bone(place(parts[j]), place(parts[j + 1]), colour);
+    for (int j = 0; j < (fitted[parts[3]].present() ? 3 : 2); ++j)
+      tile.bone(fitted[parts[j]].p_px, fitted[parts[j + 1]].p_px, colour);
   };
   const auto right = [&] {
     leg({BodyPart::hip_r, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r}, kRight);
@@ -83,31 +80,15 @@ void draw_runner(const Trajectory& trajectory, const Directions& directions, con
     leg({BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l}, kLeft);
   };
   // Whoever faces right shows his right leg in front.
-  if (c.observations.to_left)
+  if (to_left)
     right(), left();
   else
     left(), right();
-  for (const Point& point : trajectory.frames[i].points)
+  for (const Point& point : marked.points)
     if (point.present()) tile.mark(point.p_px);
 }
 
 }  // namespace
-
-Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& model,
-                         const Calibration& c) {
-  const Directions directions(model);
-  Trajectory fitted = trajectory;
-  for (std::size_t i = 0; i < fitted.frames.size(); ++i)
-    for (const BodyPart part : kBodyParts) {
-      const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
-      const bool known = toe ? c.fit.toes_seen : part != BodyPart::head || c.fit.head_seen;
-      const Eigen::Vector2d z =
-          predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
-      fitted.frames[i][part] =
-          known ? Point{image_px(trajectory, c.observations.to_left, z), 1} : Point{};
-    }
-  return fitted;
-}
 
 std::filesystem::path video_in(const std::filesystem::path& folder, const Trajectory& trajectory) {
   if (trajectory.video.empty()) return {};
@@ -125,10 +106,7 @@ std::string keyframe_strip(const std::filesystem::path& video, const Trajectory&
   std::multimap<int, int> by_frame;  // number of the frame in the video → keyframe
   for (int k = 0; k < kReportKeyframes; ++k) by_frame.emplace(trajectory.frames[shown[k]].frame, k);
 
-  const Runner& r = c.fit.runner;
-  const double leg_px =
-      (r.body[body::thigh] + r.body[body::shank]) * std::exp(r.camera[camera::log_px_per_m]);
-  const Directions directions(model);
+  const Trajectory fitted = fitted_points(trajectory, model, c);
   cv::Mat strip(height_px, width_px, CV_8UC3, cv::Scalar(255, 255, 255));
   const int tile_px = (width_px + kGap) / kReportKeyframes - kGap;
   Video decoder(video);
@@ -140,9 +118,9 @@ std::string keyframe_strip(const std::filesystem::path& video, const Trajectory&
       const int k = it->second, i = shown[k];
       const Eigen::Vector2d pelvis =
           image_px(trajectory, c.observations.to_left, c.fit.pelvis_px[i]);
-      Tile tile(frame.image, pelvis, height_px / (kShown * leg_px),
+      Tile tile(frame.image, pelvis, height_px / (kShown * leg_px(c.fit.runner)),
                 strip(cv::Rect(k * (tile_px + kGap), 0, tile_px, height_px)));
-      draw_runner(trajectory, directions, c, i, tile);
+      draw_runner(fitted.frames[i], trajectory.frames[i], c.observations.to_left, tile);
     }
   }
   std::vector<unsigned char> bytes;

@@ -12,10 +12,6 @@ inline constexpr int kReportKeyframes = 8;  // of a stride, as the paper's
 /// The video of a trajectory, if it lies in `folder` and is the one that was tracked; else empty.
 std::filesystem::path video_in(const std::filesystem::path& folder, const Trajectory& trajectory);
 
-/// Where the fit has the parts in every frame of the trajectory, px.
-Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& model,
-                         const Calibration& calibration);
-
 /// The frames nearest to the keyframes of a stride side by side, with the fitted legs (right red,
 /// left blue) and the marks drawn on them: a JPEG file's bytes. Throws Error if the video ends
 /// before.

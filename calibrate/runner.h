@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "calibrate/sagittal_model.h"
@@ -78,6 +79,12 @@ T evaluate_series(const T* c, int harmonics, const T& phase) {
 template <typename T>
 T phase_at(const T* cadence, double u_s) {
   return u_s / cadence[cadence::period_s] + 0.5 * cadence[cadence::drift_hz_s] * u_s * u_s;
+}
+
+/// Hip to ankle of the stretched leg, px.
+inline double leg_px(const Runner& runner) {
+  return (runner.body[body::thigh] + runner.body[body::shank]) *
+         std::exp(runner.camera[camera::log_px_per_m]);
 }
 
 /// Angles of one leg at a phase of the right leg's cycle: the left leg is half a cycle later.

@@ -11,19 +11,13 @@
 
 #include "calibrate/point_cost.h"
 #include "calibrate/residuals.h"
+#include "extract/median.h"
 
 namespace stride {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTukey = 4.685, kCauchy = 2.385;  // 95 % efficient under normal noise
-
-/// Half of the marks' residuals are below the median; 0.6745 σ for a normal distribution.
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 template <typename Residual, int kResiduals, int... kBlocks>
 ceres::CostFunction* cost(const FitProblem& problem, Residual residual) {
@@ -197,10 +191,6 @@ void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_
   const double log_scale = camera[camera::log_px_per_m];
   ceres.SetParameterLowerBound(camera, camera::log_px_per_m, log_scale - 3);
   ceres.SetParameterUpperBound(camera, camera::log_px_per_m, log_scale + 3);
-}
-
-double leg_px(const Runner& r) {
-  return (r.body[body::thigh] + r.body[body::shank]) * std::exp(r.camera[camera::log_px_per_m]);
 }
 
 /// The pelvis of every frame where most of its marks put it: one wrong mark moves nothing.

@@ -7,17 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
 constexpr double kBelieved = 0.3;  // confidence: at most that, only the tracker's prior speaks
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The distance that holds 90 % of the values.
 double spread(std::vector<double> values) {
@@ -231,8 +226,7 @@ void judge_fit(const Trajectory& trajectory, const Marks& observations, const St
     return;
   }
   const Runner& r = fit.runner;
-  const double leg_m = r.body[body::thigh] + r.body[body::shank];
-  const double leg_px = leg_m * std::exp(r.camera[camera::log_px_per_m]);
+  const double leg_px = stride::leg_px(r);
   const double relative = fit.sigma_px / leg_px;
   if (fit.explained < 0.75)
     verdict.refuse(

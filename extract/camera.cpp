@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
@@ -64,9 +66,7 @@ CameraStep step_of(const Matches& matches, cv::Size size, double agreement_px) {
   CameraStep step;
   step.features = static_cast<int>(residuals.size());
   if (!step.known()) return {};
-  const auto middle = residuals.begin() + static_cast<long>(residuals.size() / 2);
-  std::ranges::nth_element(residuals, middle);
-  step.residual_px = *middle;
+  step.residual_px = median(std::move(residuals));
   step.way_px = linear * centre + offset - centre;
   step.scale = linear.col(0).norm();
   step.roll_rad = std::atan2(linear(1, 0), linear(0, 0));

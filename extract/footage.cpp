@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
@@ -76,10 +78,7 @@ double body_size_px(const Trajectory& marks) {
         size = std::max(size, (frame[part].p_px - frame[BodyPart::pelvis].p_px).norm());
     if (size > 0) sizes.push_back(size);
   }
-  if (sizes.empty()) return 90;
-  const auto middle = sizes.begin() + static_cast<long>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return *middle;
+  return sizes.empty() ? 90 : median(std::move(sizes));
 }
 
 Footage watch(const Trajectory& marks, const FrameSource& frames, const WatchOptions& options) {

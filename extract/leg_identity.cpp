@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "extract/error.h"
+#include "extract/median.h"
 #include "extract/stride_fold.h"
 
 namespace stride {
@@ -72,13 +73,6 @@ Legs legs_of(const Trajectory& points) {
     }
   }
   return legs;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 double cauchy(double distance, double spread) {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
@@ -29,13 +31,6 @@ Basis basis(double time_s, int side, double period_s) {
   return b;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Robust least squares of several signals over the same rows, by Cauchy weights.
 struct Fit {
   Eigen::MatrixXd coefficients;  // a column a signal
@@ -51,7 +46,7 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen
     normal.diagonal().array() += 1e-3;
     fit.coefficients = normal.llt().solve(rows.transpose() * robust.asDiagonal() * signals);
     distance = (signals - rows * fit.coefficients).rowwise().norm();
-    fit.spread = std::max(median({distance.begin(), distance.end()}), least_spread);
+    fit.spread = std::max(least_spread, median({distance.begin(), distance.end()}));
     robust = weights.array() / (1 + (distance / (2 * fit.spread)).array().square());
   }
   fit.surprise = (weights.array() *

@@ -6,6 +6,7 @@
 
 #include "extract/error.h"
 #include "extract/flow.h"
+#include "extract/median.h"
 #include "extract/readings.h"
 
 namespace stride {
@@ -63,10 +64,7 @@ bool is_absent(const Trajectory& marks, BodyPart part, int frame) {
 double median_rate_hz(const std::vector<double>& times_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
-  if (steps.empty()) return 30;
-  const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return 1 / *middle;
+  return steps.empty() ? 30 : 1 / median(std::move(steps));
 }
 
 /// Estimates with the confidence that their sources deserve.

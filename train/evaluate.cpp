@@ -45,7 +45,7 @@ Json to_json(const GaitSummary& gait) {
           {"peak_ground_force_bw", number(gait.peak_ground_force_bw)}};
 }
 
-Json to_json(const Evaluation& evaluation, const EvaluateOptions& options) {
+Json to_json(const Evaluation& evaluation, const fs::path& agent) {
   Json episodes = Json::array();
   for (const EpisodeSummary& episode : evaluation.episodes)
     episodes.push_back({{"seed", episodes.size()},
@@ -56,7 +56,7 @@ Json to_json(const Evaluation& evaluation, const EvaluateOptions& options) {
                         {"failed", episode.failed}});
   return {{"format", "stride-evaluation"},
           {"version", 1},
-          {"agent", options.agent + ".safetensors"},
+          {"agent", agent.filename().string()},
           {"distance_m", evaluation.distance_m},
           {"distance_se_m", number(evaluation.distance_se_m)},
           {"falls", evaluation.falls},
@@ -80,12 +80,12 @@ void summarise(Evaluation& evaluation) {
 }
 
 template <typename Scalar>
-std::vector<Rollout> run_episodes(const fs::path& run, const TrainOptions& train_options,
+std::vector<Rollout> run_episodes(const fs::path& agent, const TrainOptions& train_options,
                                   const Potential* potential, RunnerEnvironment& environment,
                                   const EvaluateOptions& options) {
   Observer observer = make_observer(train_options, potential, environment.spec());
-  const Policy<Scalar> policy = load_policy<Scalar>(
-      run / (options.agent + ".safetensors"), observer.names(), environment.spec().action_names);
+  const Policy<Scalar> policy =
+      load_policy<Scalar>(agent, observer.names(), environment.spec().action_names);
   std::vector<Rollout> rollouts;
   for (int seed = 0; seed < options.episodes; ++seed)
     rollouts.push_back(record_episode(policy, environment, observer, potential,
@@ -125,8 +125,7 @@ std::string Evaluation::brief_report() const {
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
-  require(options.agent == "best" || options.agent == "agent",
-          "--agent {}: must be best, or agent: the last one", options.agent);
+  const fs::path agent = agent_file(run, options.agent);
   TrainOptions train_options = load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
   if (!options.rules.empty()) train_options.environment.rules = options.rules;
@@ -142,7 +141,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   const auto run_them =
       train_options.run.precision == "float" ? run_episodes<float> : run_episodes<double>;
   const std::vector<Rollout> rollouts =
-      run_them(run, train_options, potential, environment, options);
+      run_them(agent, train_options, potential, environment, options);
   Evaluation evaluation;
   for (const Rollout& rollout : rollouts) evaluation.episodes.push_back(rollout.summary);
   summarise(evaluation);
@@ -152,7 +151,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
 
   const fs::path out = options.out.empty() ? run : options.out;
   evaluation.file = out / "evaluation.json";
-  write_file_atomically(evaluation.file, to_json(evaluation, options).dump(1) + "\n");
+  write_file_atomically(evaluation.file, to_json(evaluation, agent).dump(1) + "\n");
   write_file_atomically(out / "evaluation.mot", motion_file(farthest));
   write_file_atomically(out / "evaluation.sto", states_file(farthest));
   if (!options.trajectory.empty()) {

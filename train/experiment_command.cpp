@@ -2,17 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <memory>
 #include <optional>
 
 #include "extract/error.h"
 #include "train/experiment.h"
+#include "train/interrupt.h"
 
 namespace stride {
 namespace {
-
-std::atomic<bool> interrupted = false;
 
 struct Request {
   std::string name, potential;
@@ -54,9 +52,7 @@ void experiment_as_requested(const Request& request) {
     options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
   if (options.report.empty()) options.report = options.runs / "report";
   options.command = command_of(request);
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
-  if (run_experiment(options, interrupted, stderr))
+  if (run_experiment(options, stopped_by({SIGINT, SIGTERM}), stderr))
     fmt::print("{}\n", (options.report / "results.md").string());
   else
     fmt::print("stopped and saved; give the same command again to continue\n");

@@ -33,7 +33,7 @@ Sections sections_of(const fs::path& file) {
 /// What all arms share: of the four keys, `seeds` may be missing.
 void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file,
                   ExperimentFile& experiment) {
-  std::map<std::string, std::string> texts;
+  std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)}};
   for (const TomlSetting& setting : settings) {
     const std::string key = setting.key();
     require(key == "title" || key == "preset" || key == "decisions" || key == "seeds",
@@ -48,12 +48,11 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
   experiment.preset = texts["preset"];
   // Whole numbers are read and checked as the settings of a run are.
   TrainOptions numbers;
-  set_options({{{"run"}, "decisions", {texts["decisions"]}}}, file.string(), numbers);
-  if (texts.contains("seeds"))
-    set_options({{{"run"}, "seed", {texts["seeds"]}}}, file.string(), numbers);
-  require(!texts.contains("seeds") || (numbers.run.seed >= 1 && numbers.run.seed <= 1000),
-          "{}: seeds = {}: must be in [1, 1000]", file.string(), texts["seeds"]);
-  if (texts.contains("seeds")) experiment.seeds = static_cast<int>(numbers.run.seed);
+  set_options({{{"run"}, "decisions", {texts["decisions"]}}, {{"run"}, "seed", {texts["seeds"]}}},
+              file.string(), numbers);
+  require(numbers.run.seed >= 1 && numbers.run.seed <= 1000, "{}: seeds = {}: must be in [1, 1000]",
+          file.string(), texts["seeds"]);
+  experiment.seeds = static_cast<int>(numbers.run.seed);
   experiment.decisions = numbers.run.decisions;
 }
 

@@ -15,8 +15,6 @@ constexpr std::array kActivations{
     std::pair{Activation::elu, "elu"}, std::pair{Activation::tanh, "tanh"},
     std::pair{Activation::sigmoid, "sigmoid"}};
 
-constexpr double kVarianceFloor = 1e-5;  // of the layer normalisation, PyTorch's value
-
 template <typename Matrix>
 void activate(Activation activation, Matrix& x) {
   using Scalar = typename Matrix::Scalar;

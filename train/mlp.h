@@ -23,6 +23,8 @@ struct MlpShape {
   bool layer_norm = false;  // of each hidden layer, between its affine map and its activation
 };
 
+inline constexpr double kVarianceFloor = 1e-5;  // of the layer normalisation, PyTorch's value
+
 /// A multilayer perceptron with its gradients: affine maps, optional layer normalisation (Ba et
 /// al. 2016), activation. A batch is a matrix with one column a sample. All parameters lie in one
 /// vector, layer by layer: weight (outputs × inputs, column by column), bias, and scale and shift

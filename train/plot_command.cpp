@@ -1,18 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <memory>
 
+#include "train/interrupt.h"
 #include "train/plot.h"
 
 namespace stride {
-namespace {
-
-std::atomic<bool> interrupted = false;
-
-}  // namespace
-
 void add_plot_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "plot", "Learning curves of runs, mean and standard error over seeds: SVG and PNG");
@@ -35,10 +29,7 @@ void add_plot_command(CLI::App& app) {
   command->add_flag("--watch", request->watch, "Draw anew whenever a curve grows, until Ctrl-C");
   command->callback([request] {
     const std::vector<Arm> arms = arms_of({request->runs.begin(), request->runs.end()});
-    if (request->watch) {
-      std::signal(SIGINT, [](int) { interrupted = true; });
-      return watch(arms, request->options, interrupted, stderr);
-    }
+    if (request->watch) return watch(arms, request->options, stopped_by({SIGINT}), stderr);
     plot(arms, request->options);
     fmt::print("{0}.svg\n{0}.png\n", request->options.out.string());
   });

@@ -84,6 +84,12 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, Environment& environmen
   return episode;
 }
 
+std::filesystem::path agent_file(const std::filesystem::path& run, const std::string& agent) {
+  require(agent == "best" || agent == "agent", "--agent {}: must be best, or agent: the last one",
+          agent);
+  return run / (agent + ".safetensors");
+}
+
 template <typename Scalar>
 void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& features,
                  const std::vector<std::string>& actions, int action_repeat,

@@ -48,6 +48,9 @@ void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& f
                  const std::vector<std::string>& actions, int action_repeat,
                  const std::filesystem::path& file);
 
+/// The policy file of a run: `agent` is best, or agent: the last one. Throws Error otherwise.
+std::filesystem::path agent_file(const std::filesystem::path& run, const std::string& agent);
+
 /// What a policy file says its features and actions are.
 struct PolicyNames {
   std::vector<std::string> features, actions;

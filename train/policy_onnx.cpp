@@ -8,8 +8,6 @@
 namespace stride {
 namespace {
 
-constexpr double kVarianceFloor = 1e-5;  // as Mlp's
-
 const char* operation_of(Activation activation) {
   switch (activation) {
     case Activation::linear:

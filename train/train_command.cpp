@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <memory>
 
 #include "extract/error.h"
 #include "extract/file.h"
+#include "train/interrupt.h"
 #include "train/runner_factory.h"
 #include "train/train.h"
 
@@ -14,8 +13,6 @@ namespace stride {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::atomic<bool> interrupted = false;
 
 /// What the command line says.
 struct Request {
@@ -68,8 +65,7 @@ fs::path resume(const Request& request) {
 
 void train_as_requested(const Request& request) {
   const fs::path run = request.resume.empty() ? begin(request) : resume(request);
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const std::atomic<bool>& interrupted = stopped_by({SIGINT, SIGTERM});
   const TrainOptions options = load_run_options(run);
   const EnvironmentFactory runners =
       make_runners(options.environment, load_run_demonstration(options, run));

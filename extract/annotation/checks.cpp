@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/median.h"
+
 namespace stride {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr double kBand = 0.12;
 double length_px(const ClickedFrame& frame, BodyPart from, BodyPart to) {
   if (!frame.placed(from) || !frame.placed(to)) return 0;
   return (frame[from]->p_px - frame[to]->p_px).norm();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Where one foot stands: the lowest spots, at least a third of a stride apart.

@@ -2,6 +2,7 @@
 #include <map>
 #include <optional>
 
+#include "extract/gait/hyperparameters.h"
 #include "extract/gait/regression.h"
 #include "extract/gait_prior.h"
 
@@ -170,16 +171,13 @@ GaitPrior with_period_of(const GaitPrior& prior, const Observations& observation
   GaitPrior best = prior;
   double least = surprise(best, observations);
   for (double step = 0.01; step > 0.0005; step /= 2)
-    for (const double factor : {1 + step, 1 / (1 + step)})
-      for (int move = 0; move < 4; ++move) {
-        GaitPrior next = best;
-        next.legs.period_s *= factor;
-        next.trunk.period_s *= factor;
-        const double cost = surprise(next, observations);
-        if (cost >= least) break;
-        least = cost;
-        best = next;
-      }
+    descend(
+        best, least, 1 + step, 4,
+        [](GaitPrior& next, double factor) {
+          next.legs.period_s *= factor;
+          next.trunk.period_s *= factor;
+        },
+        [&](const GaitPrior& next) { return surprise(next, observations); });
   return best;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "extract/gait/regression.h"
+#include "extract/median.h"
 
 namespace stride {
 namespace {
@@ -69,10 +70,7 @@ double median_spacing_s(const std::vector<Sample>& samples) {
   for (std::size_t i = 1; i < samples.size(); ++i)
     if (samples[i].left == samples[i - 1].left)
       spacings.push_back(samples[i].time_s - samples[i - 1].time_s);
-  if (spacings.empty()) return 0;
-  const auto middle = spacings.begin() + static_cast<long>(spacings.size() / 2);
-  std::ranges::nth_element(spacings, middle);
-  return *middle;
+  return spacings.empty() ? 0 : median(std::move(spacings));
 }
 
 /// −log probability that somebody who faces this way moves the feet so: they go back low and come

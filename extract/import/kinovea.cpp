@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <cmath>
 
 #include "extract/error.h"
 #include "extract/import/columns.h"
 #include "extract/import/formats.h"
 #include "extract/import/labels.h"
+#include "extract/median.h"
 
 namespace stride {
 namespace {
@@ -15,8 +15,7 @@ double median_step(const std::vector<double>& times, const std::string& file) {
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
   require(!steps.empty(), "{}: expected at least two rows, so that the frame rate can be told",
           file);
-  std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-  return steps[steps.size() / 2];
+  return median(std::move(steps));
 }
 
 }  // namespace

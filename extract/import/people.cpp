@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "extract/error.h"
+#include "extract/median.h"
 
 namespace stride {
 namespace {
@@ -88,10 +89,8 @@ std::vector<Track> join(const DetectedPeople& people) {
 }
 
 ImportedPerson summary(const Track& track) {
-  std::vector<double> heights = track.heights_px;
-  std::ranges::nth_element(heights, heights.begin() + heights.size() / 2);
-  return {track.seen.front()->frame, track.seen.back()->frame, static_cast<int>(heights.size()),
-          heights[heights.size() / 2]};
+  return {track.seen.front()->frame, track.seen.back()->frame,
+          static_cast<int>(track.heights_px.size()), median(track.heights_px)};
 }
 
 }  // namespace

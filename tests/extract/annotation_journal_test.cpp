@@ -134,10 +134,7 @@ TEST(AnnotationJournal, RefusesKeypointsOfANewerProgramOrAnotherVideo) {
 }
 
 TEST(AnnotationJournal, AKilledWindowLosesNoClick) {
-  // What a process wrote survives its death without a disk too, and a thousand flushes take time.
-  if (std::filesystem::exists("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
-  const TemporaryFolder folder;
-  ::unsetenv("TMPDIR");
+  const TemporaryFolder folder(memory_folder());
   std::mt19937_64 random(99);
   for (int round = 0; round < 100; ++round) {
     const auto file = folder / fmt::format("run{}.keypoints.json", round);

@@ -244,10 +244,7 @@ TEST_F(Annotating, EveryEditIsOnDiskWhenTheEventReturns) {
 }
 
 TEST_F(Annotating, AWindowKilledAtAHundredMomentsKeepsEveryClick) {
-  // What a process wrote survives its death without a disk too, and thousands of flushes take time.
-  if (std::filesystem::exists("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
-  const TemporaryFolder memory;
-  ::unsetenv("TMPDIR");
+  const TemporaryFolder memory(memory_folder());
   std::mt19937_64 random(7);
   for (int round = 0; round < 100; ++round) {
     const auto file = memory / fmt::format("run{}.keypoints.json", round);

@@ -1,16 +1,14 @@
 // A libFuzzer target for each file of ours that people edit or programs leave half written: it
 // loads or is refused by Error, and what loads survives being saved. Built and run as
 // fuzz_import.cpp says.
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <string_view>
 
 #include "extract/annotation/journal.h"
-#include "extract/error.h"
 #include "extract/file.h"
 #include "extract/trajectory.h"
+#include "tests/support/fuzz.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -70,9 +68,5 @@ void journal(std::string_view content) {
 }  // namespace stride
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    stride::STRIDE_FUZZED_FILE({reinterpret_cast<const char*>(data), size});
-  } catch (const stride::Error&) {
-  }
-  return 0;
+  return stride::read_or_refuse(data, size, stride::STRIDE_FUZZED_READER);
 }

@@ -2,13 +2,11 @@
 //     cmake -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DSTRIDE_FUZZ=ON
 //     cmake --build build/fuzz --target fuzz_import_read_sleap
 //     build/fuzz/tests/extract/fuzz_import_read_sleap -max_total_time=600 CORPUS_FOLDER
-#include <cstddef>
-#include <cstdint>
 #include <string_view>
 
-#include "extract/error.h"
 #include "extract/import/formats.h"
 #include "extract/import/people.h"
+#include "tests/support/fuzz.h"
 
 namespace stride {
 
@@ -19,15 +17,13 @@ DetectedPeople json(std::string_view content, const std::string& file, const Imp
   return read_own_json(content, file);
 }
 
+void import(std::string_view content) {
+  const ImportOptions options;
+  take_person(STRIDE_FUZZED_READER(content, "fuzz", options), options, "fuzz");
+}
+
 }  // namespace stride
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  stride::ImportOptions options;
-  try {
-    stride::take_person(
-        stride::STRIDE_FUZZED_READER({reinterpret_cast<const char*>(data), size}, "fuzz", options),
-        options, "fuzz");
-  } catch (const stride::Error&) {
-  }
-  return 0;
+  return stride::read_or_refuse(data, size, stride::import);
 }

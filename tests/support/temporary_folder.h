@@ -10,8 +10,9 @@ namespace stride {
 /// A fresh folder that is removed with all that is in it.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "stride_test_XXXXXX").string();
+  explicit TemporaryFolder(
+      const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+    std::string name = (parent / "stride_test_XXXXXX").string();
     path_ = ::mkdtemp(name.data());
   }
   ~TemporaryFolder() {
@@ -27,5 +28,11 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Where files live in memory, if there is such a place: thousands of flushes to a disk take time,
+/// and what a process wrote survives its death without one too.
+inline std::filesystem::path memory_folder() {
+  return std::filesystem::exists("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path();
+}
 
 }  // namespace stride

@@ -8,16 +8,14 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
-#include "extract/error.h"
 #include "extract/file.h"
 #include "extract/table.h"
 #include "shaping/potential.h"
+#include "tests/support/fuzz.h"
 #include "tests/train/support/point_mass.h"
 #include "train/checkpoint.h"
 #include "train/options.h"
@@ -128,9 +126,5 @@ void checkpoint(std::string_view content) {
 }  // namespace stride
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    stride::STRIDE_FUZZED_READER({reinterpret_cast<const char*>(data), size});
-  } catch (const stride::Error&) {
-  }
-  return 0;
+  return stride::read_or_refuse(data, size, stride::STRIDE_FUZZED_READER);
 }
