@@ -83,7 +83,7 @@ bool is_finite(const Pose& pose) {
 Json parse(const std::string& content, const std::string& file) {
   try {
     return Json::parse(content);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {
     throw Error(fmt::format("{}: is not JSON: {}", file, error.what()));
   }
 }
