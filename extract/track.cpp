@@ -100,6 +100,11 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks, const Estimates&
   return frames;
 }
 
+std::vector<Reading> joined(std::vector<Reading> readings, const std::vector<Reading>& others) {
+  readings.insert(readings.end(), others.begin(), others.end());
+  return readings;
+}
+
 void check(const Trajectory& marks, const std::vector<double>& times_s) {
   require(!marks.frames.empty(), "{}: no points are marked; click some with stride annotate",
           marks.video);
@@ -127,15 +132,16 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
   summary.prior = fit_gait_prior(observations_of(unweighed, times_s));
   GaitPrior weights = summary.prior;
   if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
-  std::vector<Reading> readings;
+  std::vector<Reading> readings, predicted;
   std::vector<FlowStretch> stretches;
   for (int look = 0; look < kLooks; ++look) {
     readings = unweighed;
     weigh_marks(readings, marks, weights);
-    if (options.prior) add_prediction(readings, *options.prior, marks, weights);
+    predicted.clear();
+    if (options.prior) add_prediction(predicted, *options.prior, marks, weights);
     if (!options.flow || footage.sights.empty()) break;
-    const Estimates expected =
-        estimate(summary.prior, observations_of(readings, times_s), span_s, false);
+    const Estimates expected = estimate(
+        summary.prior, observations_of(joined(readings, predicted), times_s), span_s, false);
     stretches = follow(
         marks, footage.sights,
         [&](BodyPart part, int frame) {
@@ -143,10 +149,12 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
         },
         flow_options(body_size_px(marks)));
     add_flow(readings, stretches, weights);
+    // The prediction has a period of its own, which says nothing new.
     const double before_s = summary.prior.legs.period_s;
     summary.prior = with_period_of(summary.prior, observations_of(readings, times_s));
     if (std::abs(summary.prior.legs.period_s / before_s - 1) < kSettled) break;
   }
+  readings = joined(readings, predicted);
   Estimates estimates;
   for (int round = 0; round < kReweightings; ++round) {
     estimates = estimate(summary.prior, observations_of(readings, times_s), span_s,
