@@ -10,7 +10,7 @@ namespace stride {
 
 struct ObservationOptions {
   bool centre = true;       // x positions are measured from the pelvis
-  bool derived = true;      // the 71 features that the paper adds to the competition's 41
+  bool derived = false;     // the 71 features that the paper adds to the competition's 41
   bool activations = true;  // of the runner's own muscles
   bool phase = true;        // sine and cosine of the phase of the stride
 };

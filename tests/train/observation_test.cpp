@@ -38,7 +38,8 @@ class Observation : public ::testing::Test {
 };
 
 TEST_F(Observation, OfThePaperHas112FeaturesWithNamesOfTheirOwn) {
-  const Observer observer(runner_.spec(), {.activations = false, .phase = false}, 0.03);
+  const Observer observer(runner_.spec(), {.derived = true, .activations = false, .phase = false},
+                          0.03);
   EXPECT_EQ(observer.names().size(), 41u + 71u);
   EXPECT_EQ(std::set(observer.names().begin(), observer.names().end()).size(), 112u);
   const Observer plain(runner_.spec(),
@@ -48,7 +49,7 @@ TEST_F(Observation, OfThePaperHas112FeaturesWithNamesOfTheirOwn) {
 }
 
 TEST_F(Observation, FeaturesAreWhatTheirNamesSay) {
-  Observer observer(runner_.spec(), {}, 0.03);
+  Observer observer(runner_.spec(), {.derived = true}, 0.03);
   Eigen::VectorXd features;
   Eigen::VectorXd before = runner_.reset(1);
   observer.start(before, 0.2, features);
@@ -74,7 +75,8 @@ TEST_F(Observation, FeaturesAreWhatTheirNamesSay) {
 /// features, the phase half a stride later.
 TEST_F(Observation, OfAMirroredRunIsTheMirroredObservation) {
   RunnerEnvironment other(load_osim(default_model_file()), {});
-  Observer observer(runner_.spec(), {}, 0.03), other_observer(other.spec(), {}, 0.03);
+  Observer observer(runner_.spec(), {.derived = true}, 0.03),
+      other_observer(other.spec(), {.derived = true}, 0.03);
   const Mirror features = mirror_by_name(observer.names());
   const Mirror actions = mirror_by_name(runner_.spec().action_names);
   Eigen::VectorXd seen, other_seen, mirrored(static_cast<long>(observer.names().size()));
