@@ -6,7 +6,6 @@
 #include "extract/median.h"
 
 namespace stride {
-namespace {}  // namespace
 
 std::optional<Prior> ground_roll(const Trajectory& trajectory) {
   constexpr double kLine = 0.01, kLeast = 0.005, kSure = 0.017;  // rad

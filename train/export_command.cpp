@@ -25,8 +25,8 @@ std::string onnx_of(const std::filesystem::path& file) {
 
 void export_policy(const Request& request) {
   require(request.onnx, "name a format: --onnx");
-  const std::string precision = load_run_options(request.run).run.precision;
   const std::filesystem::path file = agent_file(request.run, request.agent);
+  const std::string precision = load_run_options(request.run).run.precision;
   const std::filesystem::path out =
       request.out.empty() ? request.run / (request.agent + ".onnx") : request.out;
   write_file_atomically(out, precision == "float" ? onnx_of<float>(file) : onnx_of<double>(file));

@@ -7,6 +7,7 @@
 #include "train/plot.h"
 
 namespace stride {
+
 void add_plot_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "plot", "Learning curves of runs, mean and standard error over seeds: SVG and PNG");
