@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "extract/io/error.h"
+#include "extract/skeleton/fourier_series.h"
 
 namespace stride {
 namespace {
@@ -26,16 +26,6 @@ Pose pose(const Numbers& row) {
           .foot_r = row.segment<2>(3).transpose(),
           .knee_l = row.segment<2>(5).transpose(),
           .foot_l = row.segment<2>(7).transpose()};
-}
-
-Eigen::RowVectorXd basis(double phase, int harmonics) {
-  Eigen::RowVectorXd row(2 * harmonics + 1);
-  row[0] = 1;
-  for (int h = 1; h <= harmonics; ++h) {
-    row[2 * h - 1] = std::cos(2 * std::numbers::pi * h * phase);
-    row[2 * h] = std::sin(2 * std::numbers::pi * h * phase);
-  }
-  return row;
 }
 
 double distance(double a, double b) { return std::abs(a - b - std::round(a - b)); }
@@ -80,7 +70,7 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   Eigen::Matrix<double, Eigen::Dynamic, kNumbers> values(n, kNumbers);
   for (Eigen::Index i = 0; i < n; ++i) {
     const CalibratedSample& sample = run.samples[static_cast<std::size_t>(i)];
-    rows.row(i) = basis(sample.phase, harmonics);
+    rows.row(i) = fourier_basis(sample.phase, harmonics).transpose();
     values.row(i) = numbers(pose_of(sample, options.foot));
   }
   const Eigen::MatrixXd curves = rows.completeOrthogonalDecomposition().solve(values);
@@ -102,7 +92,9 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   potential.weight = options.weight;
   for (int k = 0; k < options.count; ++k) {
     const double phase = static_cast<double>(k) / options.count;
-    const auto target = [&](double at) { return pose(basis(at, harmonics) * curves); };
+    const auto target = [&](double at) {
+      return pose(fourier_basis(at, harmonics).transpose() * curves);
+    };
     Pose mean = target(phase);
     if (options.symmetric)
       mean = pose(0.5 * (numbers(mean) + numbers(target(phase + 0.5).mirrored())));

@@ -22,8 +22,8 @@ const std::vector<std::string> kRooms{
     "extract/import/formats", "extract/import", "extract/pose", "extract/tracking/gaussian_process",
     "extract/tracking", "extract/annotation", "extract/annotation/session", "extract/commands",
     //
-    "calibrate/osim", "calibrate/runner", "calibrate/fit", "calibrate/gait", "calibrate",
-    "calibrate/report", "calibrate/commands",
+    "calibrate/osim", "calibrate/runner", "calibrate/fit/solver", "calibrate/fit", "calibrate/gait",
+    "calibrate", "calibrate/report", "calibrate/commands",
     //
     "shaping", "shaping/pipeline", "shaping/commands",
     //

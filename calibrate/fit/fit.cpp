@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/fit/initial_guess.h"
-#include "calibrate/fit/solve.h"
+#include "calibrate/fit/solver/noise.h"
+#include "calibrate/fit/solver/solve.h"
 #include "calibrate/fit/stance.h"
+#include "calibrate/fit/start.h"
 #include "calibrate/fit/vertical_oscillation.h"
 
 namespace stride::fit {

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/fourier_series.h"
+#include "extract/skeleton/robust_fit.h"
 
 namespace stride::fit {
 namespace {
@@ -42,19 +44,9 @@ std::vector<Relative> relative_marks(const Marks& all, BodyPart right) {
 /// Two rows of coefficients, x and y, of the series of one part.
 using Curve = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-VectorXd basis(double phase, int harmonics) {
-  VectorXd row(2 * harmonics + 1);
-  row[0] = 1;
-  for (int h = 1; h <= harmonics; ++h) {
-    row[2 * h - 1] = std::cos(2 * std::numbers::pi * h * phase);
-    row[2 * h] = std::sin(2 * std::numbers::pi * h * phase);
-  }
-  return row;
-}
-
 struct CurveFit {
   Curve curve;
-  double median_residual_px = 0;
+  double spread_px = 0;  // median distance of the marks
 };
 
 /// Robust linear fit of a part's series at a period: least squares reweighted by Cauchy's weights.
@@ -64,21 +56,20 @@ CurveFit fit_curve(const std::vector<Relative>& marks, double period_s, int harm
   MatrixXd values(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Relative& mark = marks[static_cast<std::size_t>(i)];
-    rows.row(i) = basis(mark.u_s / period_s + (mark.side > 0 ? 0 : 0.5), harmonics).transpose();
+    rows.row(i) =
+        fourier_basis(mark.u_s / period_s + (mark.side > 0 ? 0 : 0.5), harmonics).transpose();
     values.row(i) = mark.d_px.transpose();
   }
-  VectorXd weights = VectorXd::Ones(n);
   CurveFit fit;
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  const auto weighted_fit = [&](const VectorXd& weights) -> VectorXd {
     const MatrixXd weighted = weights.asDiagonal() * rows;
     MatrixXd normal = rows.transpose() * weighted;
     normal.diagonal().array() += 1e-9 * normal.diagonal().maxCoeff();
     fit.curve = normal.ldlt().solve(weighted.transpose() * values);
-    const VectorXd residual = (values - rows * fit.curve).rowwise().norm();
-    fit.median_residual_px = median({residual.data(), residual.data() + n});
-    const double scale = std::max(2 * fit.median_residual_px, 1e-9);
-    weights = (1 + (residual.array() / scale).square()).inverse();
-  }
+    return (values - rows * fit.curve).rowwise().norm();
+  };
+  fit.spread_px =
+      robust_fit(VectorXd::Ones(n), {.rounds = 6, .least_spread = 5e-10}, weighted_fit).spread;
   return fit;
 }
 
@@ -95,17 +86,17 @@ double spread(const std::vector<Relative>& marks) {
 }
 
 Vector2d at(const Curve& curve, double phase) {
-  return curve.transpose() * basis(phase, static_cast<int>(curve.rows() - 1) / 2);
+  return curve.transpose() * fourier_basis(phase, static_cast<int>(curve.rows() - 1) / 2);
 }
 
 /// Coefficients of a function of phase, sampled finely.
-template <std::size_t N, typename Function>
-Series<N> series_of(Function f, int harmonics) {
+template <typename Function>
+FourierSeries<kMaxHarmonics> series_of(Function f, int harmonics) {
   constexpr int kSamples = 64;
-  Series<N> series{};
+  FourierSeries<kMaxHarmonics> series{};
   for (int i = 0; i < kSamples; ++i) {
     const double phase = static_cast<double>(i) / kSamples, value = f(i);
-    const VectorXd row = basis(phase, harmonics);
+    const VectorXd row = fourier_basis(phase, harmonics);
     for (int k = 0; k < row.size(); ++k)
       series[k] += value * row[k] * (k == 0 ? 1.0 : 2.0) / kSamples;
   }
@@ -130,8 +121,8 @@ std::vector<PeriodGuess> guess_periods(const Marks& all, int count) {
   const double step = 1 + std::clamp(0.05 * 0.6 / all.duration_s, 0.002, 0.02);
   std::vector<PeriodGuess> tried;
   for (double period = shortest; period <= longest; period *= step) {
-    const double left = fit_curve(ankles, period, 3).median_residual_px +
-                        fit_curve(knees, period, 3).median_residual_px;
+    const double left =
+        fit_curve(ankles, period, 3).spread_px + fit_curve(knees, period, 3).spread_px;
     const double ratio = left / std::max(ankle_spread + knee_spread, 1e-9);
     tried.push_back({period, 1 - ratio * ratio});
   }
@@ -179,11 +170,9 @@ Runner guess_runner(const Marks& all, const SagittalModel& model, double period_
   runner.body[body::shank] = leg_m * median(shank_px) / leg_px;
   runner.body[body::foot] = toes ? leg_m * median(foot_px) / leg_px : 0.25 * leg_m;
   runner.body[body::trunk] = 0.87 * leg_m;
-  using Angles = Series<2 * kMaxHarmonics + 1>;
-  constexpr std::size_t kSize = std::tuple_size_v<Angles>;
-  runner.hip = series_of<kSize>([&](int i) { return thigh[i]; }, kGuessHarmonics);
-  runner.knee = series_of<kSize>([&](int i) { return shank[i] - thigh[i]; }, kGuessHarmonics);
-  runner.ankle = series_of<kSize>([&](int i) { return foot[i] - shank[i]; }, kGuessHarmonics);
+  runner.hip = series_of([&](int i) { return thigh[i]; }, kGuessHarmonics);
+  runner.knee = series_of([&](int i) { return shank[i] - thigh[i]; }, kGuessHarmonics);
+  runner.ankle = series_of([&](int i) { return foot[i] - shank[i]; }, kGuessHarmonics);
   return runner;
 }
 

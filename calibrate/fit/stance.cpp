@@ -44,7 +44,7 @@ Stance find_stance(const StrideFit& fit, const Directions& directions, BodyPart 
     const double phase = static_cast<double>(i) / kPhases;
     const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
                                 fit.harmonics, side, phase);
-    const double tilt = evaluate_series(r.tilt.data(), 2, phase);
+    const double tilt = evaluate_series(r.tilt.data(), kTiltHarmonics, phase);
     path.push_back(place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase) +
                    Eigen::Vector2d(0, fit.vertical_oscillation(phase)));
   }

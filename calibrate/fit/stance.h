@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calibrate/fit/stride_fit.h"
+#include "calibrate/fit/solver/stride_fit.h"
 
 namespace stride::fit {
 

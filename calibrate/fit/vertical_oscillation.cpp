@@ -5,13 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "extract/io/statistics.h"
+#include "extract/skeleton/fourier_series.h"
+#include "extract/skeleton/robust_fit.h"
 
 namespace stride::fit {
 
 Eigen::Vector4d VerticalOscillation::weights(double phase) {
-  const double twice = 4 * std::numbers::pi * phase;
-  return {std::cos(twice), std::sin(twice), std::cos(2 * twice), std::sin(2 * twice)};
+  Eigen::Vector4d waves;
+  fourier_waves(4 * std::numbers::pi * phase, {waves.data(), 4});
+  return waves;
 }
 
 double VerticalOscillation::peak_to_peak_m() const {
@@ -46,20 +48,21 @@ VerticalOscillation measure_vertical_oscillation(const StrideFit& fit, const Mar
   }
   VerticalOscillation vertical_oscillation;
   if (n < rows.cols() + 4) return vertical_oscillation;
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  Eigen::LDLT<Eigen::MatrixXd> solver;
+  const auto weighted_fit = [&](const Eigen::VectorXd& weights) -> Eigen::VectorXd {
     const Eigen::MatrixXd weighted = weights.asDiagonal() * rows;
     Eigen::MatrixXd normal = rows.transpose() * weighted;
     normal.diagonal().array() += 1e-10 * static_cast<double>(n);
-    const auto solver = normal.ldlt();
+    solver.compute(normal);
     const Eigen::VectorXd solution = solver.solve(weighted.transpose() * height);
-    const Eigen::ArrayXd residual = (height - rows * solution).array().abs();
-    const double sd = std::max(1.4826 * median({residual.data(), residual.data() + n}), 1e-9);
-    weights = (1 + (residual / (2.5 * sd)).square()).inverse();
     vertical_oscillation.c = solution.head<4>();
-    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows.cols(), 4);
-    vertical_oscillation.covariance = sd * sd * fit.correlation * solver.solve(unit).topRows<4>();
-  }
+    return (height - rows * solution).cwiseAbs();
+  };
+  const RobustOptions options{
+      .rounds = 8, .spread_per_median = kSigmaPerMedian, .least_spread = 1e-9, .width = 2.5};
+  const double sd = robust_fit(Eigen::VectorXd::Ones(n), options, weighted_fit).spread;
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows.cols(), 4);
+  vertical_oscillation.covariance = sd * sd * fit.correlation * solver.solve(unit).topRows<4>();
   return vertical_oscillation;
 }
 

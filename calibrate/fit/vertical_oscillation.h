@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibrate/fit/stride_fit.h"
+#include "calibrate/fit/solver/stride_fit.h"
 
 namespace stride::fit {
 

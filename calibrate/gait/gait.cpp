@@ -77,7 +77,7 @@ FootPath foot_path(const fit::StrideFit& fit, const SagittalModel& model, double
   for (int i = 0; i < kPhases; ++i) {
     const double phase = foot_strike + static_cast<double>(i) / kPhases;
     const auto angles = mean_leg(fit, phase);
-    const double tilt = evaluate_series(fit.runner.tilt.data(), 2, phase);
+    const double tilt = evaluate_series(fit.runner.tilt.data(), kTiltHarmonics, phase);
     const auto leg = place_leg(model, tilt, angles.hip, angles.knee, angles.ankle);
     path.height_m.push_back(lowest_point(model, leg) +
                             to_model(fit, model) * fit.vertical_oscillation(phase));
@@ -145,7 +145,7 @@ void add_deviations(const fit::StrideFit& fit, const SagittalModel& model, doubl
 CalibratedSample pose_at(const fit::StrideFit& fit, const SagittalModel& model, double phase) {
   const Runner& r = fit.runner;
   CalibratedSample sample;
-  sample.coordinates[0] = evaluate_series(r.tilt.data(), 2, phase);
+  sample.coordinates[0] = evaluate_series(r.tilt.data(), kTiltHarmonics, phase);
   sample.coordinates[2] = to_model(fit, model) * fit.vertical_oscillation(phase);
   for (const int side : {1, -1}) {
     const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),

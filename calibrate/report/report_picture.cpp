@@ -73,7 +73,7 @@ Eigen::Vector2d fitted(const fit::StrideFit& fit, const Directions& directions, 
                               fit.harmonics, side_of(part), phase);
   return std::exp(r.camera[camera::log_px_per_m]) *
          place_part(part, directions, r.body.data(), r.sides.data(),
-                    evaluate_series(r.tilt.data(), 2, phase), leg, phase);
+                    evaluate_series(r.tilt.data(), kTiltHarmonics, phase), leg, phase);
 }
 
 /// The fit over the clip (time, x) and over the leg's own stride with its 95 % band

@@ -6,40 +6,58 @@
 
 #include "calibrate/runner/sagittal_model.h"
 #include "extract/skeleton/body_part.h"
+#include "extract/skeleton/fourier_series.h"
 
 namespace stride {
 
-/// A periodic curve: c[0] + Σ_h c[2h−1] cos 2πhφ + c[2h] sin 2πhφ.
-template <std::size_t N>
-using Series = std::array<double, N>;
+inline constexpr int kMaxHarmonics = 6, kTiltHarmonics = 2, kAsymmetryHarmonics = 1;
 
-inline constexpr int kMaxHarmonics = 6;
+// The entries of the runner's blocks of parameters. A new one is added here, before `size`.
+namespace camera {
+enum { log_px_per_m, drift_per_s, roll, size };  // roll: of the ground in the image, ccw, rad
+}
+namespace cadence {
+enum { period_s, drift_hz_s, size };  // phase φ(u) = u / period + drift u² / 2, u from the middle
+}
+namespace body {  // m; hip: from the marked pelvis to the midpoint of the hips; lumbar in rad
+enum { thigh, shank, foot, trunk, hip_x, hip_y, lumbar, size };
+}
+namespace sides {  // half of right − left. depth: the nearer leg looks larger; hips: m
+enum { depth, hip_x, hip_y, swing_cos, swing_sin, drop_cos, drop_sin, size };
+}
+namespace asymmetry {  // right − left of each angle, a series of one harmonic; where each begins
+enum { hip = 0, knee = 2 * kAsymmetryHarmonics + 1, ankle = 2 * knee, size = 3 * knee };
+}
 
 /// A runner as the fit sees one: limbs of the runner's own lengths that hang from the midpoint of
 /// the hips, periodic angles, and the camera. Axes of the ground: x the way of running, y up. Each
-/// member is one block of parameters; the indices of its entries are below.
+/// member is one block of parameters.
 struct Runner {
-  std::array<double, 3> camera{};
-  std::array<double, 2> cadence{};
-  std::array<double, 7> body{};
-  std::array<double, 7> sides{};
-  Series<5> tilt{};
-  Series<2 * kMaxHarmonics + 1> hip{}, knee{}, ankle{};  // of the right leg, rad
-  std::array<double, 9> asymmetry{};  // right − left of hip, knee, ankle: mean, cosine, sine
+  std::array<double, camera::size> camera{};
+  std::array<double, cadence::size> cadence{};
+  std::array<double, body::size> body{};
+  std::array<double, sides::size> sides{};
+  FourierSeries<kTiltHarmonics> tilt{};
+  FourierSeries<kMaxHarmonics> hip{}, knee{}, ankle{};  // of the right leg, rad
+  std::array<double, asymmetry::size> asymmetry{};
 };
 
-namespace camera {
-enum { log_px_per_m, drift_per_s, roll };  // roll: of the ground in the image, ccw, rad
+/// Visits the blocks in the order of the solver, of `flattened` and of the covariance.
+template <typename AnyRunner, typename Visit>
+constexpr void for_each_block(AnyRunner& runner, Visit visit) {
+  visit(runner.camera), visit(runner.cadence), visit(runner.body), visit(runner.sides);
+  visit(runner.tilt), visit(runner.hip), visit(runner.knee), visit(runner.ankle);
+  visit(runner.asymmetry);
 }
-namespace cadence {
-enum { period_s, drift_hz_s };  // phase φ(u) = u / period + drift u² / 2, u from the middle
-}
-namespace body {  // m; hip: from the marked pelvis to the midpoint of the hips; lumbar in rad
-enum { thigh, shank, foot, trunk, hip_x, hip_y, lumbar };
-}
-namespace sides {  // half of right − left. depth: the nearer leg looks larger; hips: m
-enum { depth, hip_x, hip_y, swing_cos, swing_sin, drop_cos, drop_sin };
-}
+
+/// How many parameters a runner has.
+inline constexpr std::size_t kRunnerParameters = [] {
+  std::size_t count = 0;
+  const Runner runner;
+  for_each_block(runner, [&](const auto& block) { count += block.size(); });
+  return count;
+}();
+static_assert(kRunnerParameters * sizeof(double) == sizeof(Runner), "for_each_block forgets one");
 
 /// Which way a leg of the runner is told from the other: +1 right, −1 left.
 inline int side_of(BodyPart part) {
@@ -57,22 +75,6 @@ inline int side_of(BodyPart part) {
     default:
       return 0;
   }
-}
-
-/// The value of a series with `harmonics` of its harmonics at a phase.
-template <typename T>
-T evaluate_series(const T* c, int harmonics, const T& phase) {
-  using std::cos;
-  using std::sin;
-  const T angle = 2 * std::numbers::pi * phase, c1 = cos(angle), s1 = sin(angle);
-  T value = c[0], ch = c1, sh = s1;
-  for (int h = 1; h <= harmonics; ++h) {
-    value += c[2 * h - 1] * ch + c[2 * h] * sh;
-    const T next = ch * c1 - sh * s1;  // cos (h + 1) α
-    sh = sh * c1 + ch * s1;
-    ch = next;
-  }
-  return value;
 }
 
 /// Phase at `u_s` from the middle of the clip.
@@ -98,9 +100,11 @@ LegAngles<T> leg_angles(const T* hip, const T* knee, const T* ankle, const T* as
                         int harmonics, int side, const T& phase) {
   const T own = side > 0 ? phase : phase + 0.5;
   const double half = 0.5 * side;
-  return {evaluate_series(hip, harmonics, own) + half * evaluate_series(asymmetry, 1, own),
-          evaluate_series(knee, harmonics, own) + half * evaluate_series(asymmetry + 3, 1, own),
-          evaluate_series(ankle, harmonics, own) + half * evaluate_series(asymmetry + 6, 1, own)};
+  const auto angle = [&](const T* mean, int offset) -> T {
+    return evaluate_series(mean, harmonics, own) +
+           half * evaluate_series(asymmetry + offset, kAsymmetryHarmonics, own);
+  };
+  return {angle(hip, asymmetry::hip), angle(knee, asymmetry::knee), angle(ankle, asymmetry::ankle)};
 }
 
 /// Where the parts of the model's foot and trunk point, as unit vectors.

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/fourier_series.h"
+#include "extract/skeleton/robust_fit.h"
 
 namespace stride::tracking {
 namespace {
@@ -23,11 +25,7 @@ constexpr std::size_t kMostPeaks = 4;  // of periods that are alike
 Basis basis(double time_s, int side, double period_s) {
   Basis b = Basis::Zero();
   b[side] = 1;
-  const double phase = 2 * std::numbers::pi * (time_s / period_s + 0.5 * side);
-  for (int h = 1; h <= 4; ++h) {
-    b[2 * h] = std::cos(h * phase);
-    b[2 * h + 1] = std::sin(h * phase);
-  }
+  fourier_waves(2 * std::numbers::pi * (time_s / period_s + 0.5 * side), {b.data() + 2, 8});
   return b;
 }
 
@@ -40,18 +38,18 @@ struct Fit {
 Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
         double least_spread) {
   Fit fit;
-  Eigen::VectorXd robust = weights, distance;
-  for (int round = 0; round < kReweightings; ++round) {
-    Eigen::MatrixXd normal = rows.transpose() * robust.asDiagonal() * rows;
+  const auto weighted_fit = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
+    Eigen::MatrixXd normal = rows.transpose() * w.asDiagonal() * rows;
     normal.diagonal().array() += 1e-3;
-    fit.coefficients = normal.llt().solve(rows.transpose() * robust.asDiagonal() * signals);
-    distance = (signals - rows * fit.coefficients).rowwise().norm();
-    fit.spread = std::max(least_spread, median({distance.begin(), distance.end()}));
-    robust = weights.array() / (1 + (distance / (2 * fit.spread)).array().square());
-  }
+    fit.coefficients = normal.llt().solve(rows.transpose() * w.asDiagonal() * signals);
+    return (signals - rows * fit.coefficients).rowwise().norm();
+  };
+  const RobustFit robust =
+      robust_fit(weights, {.rounds = kReweightings, .least_spread = least_spread}, weighted_fit);
+  fit.spread = robust.spread;
   fit.negative_log_likelihood =
       (weights.array() *
-       (std::log(fit.spread) + (distance / (2 * fit.spread)).array().square().log1p()))
+       (std::log(fit.spread) + (robust.distances / (2 * fit.spread)).array().square().log1p()))
           .sum();
   return fit;
 }
@@ -122,10 +120,10 @@ std::vector<Period> likely_periods(const std::vector<std::vector<JointPair>>& jo
     for (const Invariants& one : seen) {
       Eigen::MatrixXd rows(one.signals.rows(), 7);
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        const double phase =
-            4 * std::numbers::pi * one.times_s[static_cast<std::size_t>(i)] / period_s;
-        rows.row(i) << 1, std::cos(phase), std::sin(phase), std::cos(2 * phase),
-            std::sin(2 * phase), std::cos(3 * phase), std::sin(3 * phase);
+        Eigen::Matrix<double, 7, 1> row = Eigen::Matrix<double, 7, 1>::Ones();
+        fourier_waves(4 * std::numbers::pi * one.times_s[static_cast<std::size_t>(i)] / period_s,
+                      {row.data() + 1, 6});
+        rows.row(i) = row;
       }
       cost += fit(rows, one.signals, one.weights, 0.5).negative_log_likelihood;
     }

@@ -15,7 +15,7 @@ namespace stride {
 inline Runner synthetic_runner() {
   constexpr double degree = std::numbers::pi / 180;
   const auto series = [&](std::initializer_list<double> degrees) {
-    Series<2 * kMaxHarmonics + 1> all{};
+    FourierSeries<kMaxHarmonics> all{};
     std::size_t i = 0;
     for (const double each : degrees) all[i++] = each * degree;
     return all;

@@ -1,4 +1,4 @@
-#include "calibrate/fit/marks.h"
+#include "calibrate/fit/solver/marks.h"
 
 #include <algorithm>
 

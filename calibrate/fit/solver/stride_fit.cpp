@@ -1,8 +1,25 @@
-#include "calibrate/fit/stride_fit.h"
+#include "calibrate/fit/solver/stride_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stride::fit {
+namespace {
+
+/// Index in `flattened` of an entry of a block.
+template <auto kBlock>
+constexpr int index_of(int entry) {
+  const Runner runner;
+  int offset = 0, found = -1;
+  for_each_block(runner, [&](const auto& block) {
+    if (static_cast<const void*>(&block) == static_cast<const void*>(&(runner.*kBlock)))
+      found = offset;
+    offset += static_cast<int>(block.size());
+  });
+  return found + entry;
+}
+
+}  // namespace
 
 Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directions, BodyPart part,
                                 double u_s) {
@@ -10,8 +27,9 @@ Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directio
   const double phase = phase_at(r.cadence.data(), u_s);
   const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
                               fit.harmonics, side_of(part) < 0 ? -1 : 1, phase);
-  const Eigen::Vector2d q = place_part(part, directions, r.body.data(), r.sides.data(),
-                                       evaluate_series(r.tilt.data(), 2, phase), leg, phase);
+  const Eigen::Vector2d q =
+      place_part(part, directions, r.body.data(), r.sides.data(),
+                 evaluate_series(r.tilt.data(), kTiltHarmonics, phase), leg, phase);
   const double scale =
       std::exp(r.camera[camera::log_px_per_m] + r.camera[camera::drift_per_s] * u_s);
   return scale * turned(r.camera[camera::roll], q);
@@ -45,34 +63,35 @@ Eigen::VectorXd propagated_sd(const StrideFit& fit,
 }
 
 Eigen::VectorXd flattened(const Runner& r) {
-  std::vector<double> all;
-  const auto append = [&](const auto& block) { all.insert(all.end(), block.begin(), block.end()); };
-  append(r.camera), append(r.cadence), append(r.body), append(r.sides), append(r.tilt);
-  append(r.hip), append(r.knee), append(r.ankle), append(r.asymmetry);
-  return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  Eigen::VectorXd all(static_cast<Eigen::Index>(kRunnerParameters));
+  double* to = all.data();
+  for_each_block(r, [&](const auto& block) { to = std::ranges::copy(block, to).out; });
+  return all;
 }
 
 Runner unflattened(const Eigen::VectorXd& values) {
   Runner r;
   const double* from = values.data();
-  const auto take = [&](auto& block) {
+  for_each_block(r, [&](auto& block) {
     std::copy_n(from, block.size(), block.begin());
     from += block.size();
-  };
-  take(r.camera), take(r.cadence), take(r.body), take(r.sides), take(r.tilt);
-  take(r.hip), take(r.knee), take(r.ankle), take(r.asymmetry);
+  });
   return r;
 }
 
 double StrideFit::period_sd_s() const {
-  constexpr int i = 3 + cadence::period_s;
+  constexpr int i = index_of<&Runner::cadence>(cadence::period_s);
   return std::sqrt(covariance(i, i));
 }
 
 double StrideFit::scale_relative_sd() const {
-  return std::sqrt(covariance(camera::log_px_per_m, camera::log_px_per_m));
+  constexpr int i = index_of<&Runner::camera>(camera::log_px_per_m);
+  return std::sqrt(covariance(i, i));
 }
 
-double StrideFit::roll_sd_rad() const { return std::sqrt(covariance(camera::roll, camera::roll)); }
+double StrideFit::roll_sd_rad() const {
+  constexpr int i = index_of<&Runner::camera>(camera::roll);
+  return std::sqrt(covariance(i, i));
+}
 
 }  // namespace stride::fit

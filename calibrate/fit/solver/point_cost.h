@@ -1,8 +1,6 @@
 #pragma once
 
-#include <ceres/sized_cost_function.h>
-
-#include "calibrate/fit/residuals.h"
+#include "calibrate/fit/solver/residuals.h"
 
 namespace stride::fit {
 
@@ -10,7 +8,7 @@ namespace stride::fit {
 /// between (camera, body, hips, four angles, phase, pelvis): those are differentiated
 /// automatically, and the series of the angles, linear in their coefficients, by the chain rule.
 /// Four times faster than AutoDiffCostFunction on all 74.
-class PointCost final : public ceres::SizedCostFunction<2, 3, 2, 7, 7, 5, 13, 13, 13, 9, 2> {
+class PointCost final : public PointResidual::DependsOn::Sized {
  public:
   explicit PointCost(PointResidual residual) : residual_(std::move(residual)) {}
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/fit/marks.h"
+#include "calibrate/fit/solver/marks.h"
 #include "calibrate/runner/runner.h"
 
 namespace stride::fit {

@@ -1,9 +1,8 @@
-#include "calibrate/fit/residuals.h"
+#include "calibrate/fit/solver/residuals.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
 
-#include "calibrate/fit/point_cost.h"
+#include "calibrate/fit/solver/point_cost.h"
 #include "tests/calibrate/synthetic.h"
 
 namespace stride {
@@ -63,18 +62,14 @@ TEST(Residuals, HaveTheDerivativesOfFiniteDifferences) {
         r.hip.data(),    r.knee.data(),    r.ankle.data(), r.asymmetry.data(), pelvis};
     check(fit::PointCost(residual), blocks);
   }
-  check(
-      ceres::AutoDiffCostFunction<fit::PelvisResidual, 2, 2>(new fit::PelvisResidual{{1, 2}, 1.5}),
-      {pelvis});
-  check(ceres::AutoDiffCostFunction<fit::LegLengthResidual, 1, 7>(
-            new fit::LegLengthResidual{0.85, 0.05}),
+  check(fit::AutomaticCost<fit::PelvisResidual>(new fit::PelvisResidual{{1, 2}, 1.5}), {pelvis});
+  check(fit::AutomaticCost<fit::LegLengthResidual>(new fit::LegLengthResidual{0.85, 0.05}),
         {r.body.data()});
-  check(ceres::AutoDiffCostFunction<fit::ProportionResidual, 1, 7>(
+  check(fit::AutomaticCost<fit::ProportionResidual>(
             new fit::ProportionResidual{body::thigh, body::shank, 1, 0.15}),
         {r.body.data()});
-  check(ceres::AutoDiffCostFunction<fit::HipsResidual, 2, 7>(new fit::HipsResidual{0.01}),
-        {r.body.data()});
-  check(ceres::AutoDiffCostFunction<fit::StanceResidual, 1, 7, 7, 5, 13, 13, 13, 9, 1>(
+  check(fit::AutomaticCost<fit::HipsResidual>(new fit::HipsResidual{0.01}), {r.body.data()});
+  check(fit::AutomaticCost<fit::StanceResidual>(
             new fit::StanceResidual{BodyPart::toe_l, directions, 4, 0.2, 0.01, 0.02}),
         {r.body.data(), r.sides.data(), r.tilt.data(), r.hip.data(), r.knee.data(), r.ankle.data(),
          r.asymmetry.data(), ground});
@@ -89,8 +84,7 @@ TEST(Residuals, OfAJointLimitAreZeroInsideAndSlopeOutside) {
     double value = 0;
     residual(r.knee.data(), &value);
     EXPECT_NEAR(value, std::max({0.0, narrow.min - knee, knee - narrow.max}) / 0.1, 1e-12);
-    check(ceres::AutoDiffCostFunction<fit::JointLimitResidual, 1, 13>(
-              new fit::JointLimitResidual(residual)),
+    check(fit::AutomaticCost<fit::JointLimitResidual>(new fit::JointLimitResidual(residual)),
           {r.knee.data()});
   }
 }
@@ -103,8 +97,7 @@ TEST(Residuals, OfAPointAreTheSameWithAndWithoutTheChainRule) {
   const std::vector<const double*> blocks{
       r.camera.data(), r.cadence.data(), r.body.data(),  r.sides.data(),     r.tilt.data(),
       r.hip.data(),    r.knee.data(),    r.ankle.data(), r.asymmetry.data(), pelvis};
-  const ceres::AutoDiffCostFunction<fit::PointResidual, 2, 3, 2, 7, 7, 5, 13, 13, 13, 9, 2>
-      automatic(new fit::PointResidual(residual));
+  const fit::AutomaticCost<fit::PointResidual> automatic(new fit::PointResidual(residual));
   const fit::PointCost chained(residual);
   std::vector<std::vector<double>> a, b;
   std::vector<double*> to_a, to_b;

@@ -1,9 +1,9 @@
 #pragma once
 
-// The residuals of the fit, each with its formula, for ceres::AutoDiffCostFunction. Pixels are
-// those of an image in which the runner faces right and y is up.
+// The residuals of the fit, each with its formula and the blocks of parameters it depends on.
+// Pixels are those of an image in which the runner faces right and y is up.
 
-#include "calibrate/runner/runner.h"
+#include "calibrate/fit/solver/blocks.h"
 
 namespace stride::fit {
 
@@ -12,6 +12,10 @@ namespace stride::fit {
 /// with the pelvis p of this frame in the image, px per metre e^s and its drift ṡ, the roll ρ, and
 /// the part q of the runner from the pelvis. Two residuals.
 struct PointResidual {
+  using DependsOn =
+      Blocks<2, Others<2>, &Runner::camera, &Runner::cadence, &Runner::body, &Runner::sides,
+             &Runner::tilt, &Runner::hip, &Runner::knee, &Runner::ankle, &Runner::asymmetry>;
+
   BodyPart part;
   Directions directions;
   int harmonics;
@@ -26,7 +30,8 @@ struct PointResidual {
     const T phase = phase_at(cadence, u_s);
     const auto leg =
         leg_angles(hip, knee, ankle, asymmetry, harmonics, side_of(part) < 0 ? -1 : 1, phase);
-    at_pose(camera, body, sides, evaluate_series(tilt, 2, phase), leg, phase, pelvis_px, r);
+    at_pose(camera, body, sides, evaluate_series(tilt, kTiltHarmonics, phase), leg, phase,
+            pelvis_px, r);
     return true;
   }
 
@@ -45,6 +50,8 @@ struct PointResidual {
 
 /// The marked pelvis itself: r = (p − z) / σ.
 struct PelvisResidual {
+  using DependsOn = Blocks<2, Others<2>>;
+
   Eigen::Vector2d z_px;
   double sigma_px;
 
@@ -59,6 +66,8 @@ struct PelvisResidual {
 /// What sets the scale: the length of the runner's legs is known as well as ln L ± sd.
 ///   r = (ln (thigh + shank) − ln L) / sd
 struct LegLengthResidual {
+  using DependsOn = Blocks<1, Others<>, &Runner::body>;
+
   double leg_m, relative_sd;
 
   template <typename T>
@@ -71,6 +80,8 @@ struct LegLengthResidual {
 
 /// Proportions that the marks may not show: r = (ln (b_i / b_j) − ln ratio) / sd.
 struct ProportionResidual {
+  using DependsOn = Blocks<1, Others<>, &Runner::body>;
+
   int i, j;  // of `body`
   double ratio, relative_sd;
 
@@ -84,6 +95,8 @@ struct ProportionResidual {
 
 /// The marked pelvis is the midpoint of the hips: r = (hip offset) / sd. Two residuals.
 struct HipsResidual {
+  using DependsOn = Blocks<2, Others<>, &Runner::body>;
+
   double sd_m;
 
   template <typename T>
@@ -96,6 +109,8 @@ struct HipsResidual {
 
 /// A joint's limits at one phase: r = max(0, min − q, q − max) / sd, zero inside.
 struct JointLimitResidual {
+  using DependsOn = Blocks<1, Others<kSizeOf<&Runner::hip>>>;  // of any joint
+
   int harmonics;
   double phase;
   SagittalModel::Range range;
@@ -116,6 +131,9 @@ struct JointLimitResidual {
 ///   r = (q_y(φ) + h(φ) − g) / sd
 /// with the height h of the pelvis as the image shows it, but for a constant, and the unknown g.
 struct StanceResidual {
+  using DependsOn = Blocks<1, Others<1>, &Runner::body, &Runner::sides, &Runner::tilt, &Runner::hip,
+                           &Runner::knee, &Runner::ankle, &Runner::asymmetry>;
+
   BodyPart part;
   Directions directions;
   int harmonics;
@@ -127,8 +145,8 @@ struct StanceResidual {
     const T at(phase);
     const auto leg =
         leg_angles(hip, knee, ankle, asymmetry, harmonics, side_of(part) < 0 ? -1 : 1, at);
-    const Vector2<T> q =
-        place_part(part, directions, body, sides, evaluate_series(tilt, 2, at), leg, at);
+    const Vector2<T> q = place_part(part, directions, body, sides,
+                                    evaluate_series(tilt, kTiltHarmonics, at), leg, at);
     r[0] = (q.y() + vertical_oscillation_m - ground_m[0]) / sd_m;
     return true;
   }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ceres/problem.h>
+
+#include <vector>
+
+#include "calibrate/fit/solver/stride_fit.h"
+
+namespace stride::fit {
+
+/// Phases at which the foot of a leg stands, by its own cycle.
+struct StanceCue {
+  BodyPart part_r = BodyPart::toe_r;  // what stands; of the left leg its mirror image
+  std::vector<double> phases;         // empty: not known
+};
+
+/// What the fit is made of, besides its present state.
+struct FitProblem {
+  const Marks& observations;
+  const SagittalModel& model;
+  Directions directions;
+  FitOptions options;
+  StanceCue stance;
+};
+
+/// Cauchy's loss finds the way from afar, Tukey's gives gross outliers no say at all.
+enum class Loss { cauchy, tukey };
+inline constexpr double kTukey = 4.685, kCauchy = 2.385;  // 95 % efficient under normal noise
+
+/// A parameter beside the runner's: how far below the pelvis the ground is, m. It starts a leg's
+/// length below.
+double first_ground_m(const Runner& runner);
+
+/// The problem at the present state and noise of `fit`, of whose blocks it holds the addresses and
+/// that of `ground_m`: residuals, priors, bounds, and what is held fixed.
+void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_m,
+           ceres::Problem& ceres);
+
+/// What is known of any runner before the clip is seen. Wide: they matter where marks are silent.
+void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres);
+
+}  // namespace stride::fit

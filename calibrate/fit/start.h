@@ -1,0 +1,14 @@
+#pragma once
+
+#include "calibrate/fit/initial_guess.h"
+#include "calibrate/fit/solver/problem.h"
+
+namespace stride::fit {
+
+/// Where a guessed period starts.
+StrideFit start(const FitProblem& problem, const PeriodGuess& guess);
+
+/// How many harmonics the marks can tell at all: two for a stride seen at five phases.
+int max_harmonics(const Marks& observations, const Runner& runner);
+
+}  // namespace stride::fit
