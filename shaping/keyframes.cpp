@@ -10,22 +10,10 @@
 namespace stride {
 namespace {
 
-constexpr int kNumbers = 9;  // of a pose
-using Numbers = Eigen::Matrix<double, 1, kNumbers>;
-
-Numbers numbers(const Pose& pose) {
-  Numbers row;
-  row << pose.pelvis_height_m, pose.knee_r.transpose(), pose.foot_r.transpose(),
-      pose.knee_l.transpose(), pose.foot_l.transpose();
-  return row;
-}
-
-Pose pose(const Numbers& row) {
-  return {.pelvis_height_m = row[0],
-          .knee_r = row.segment<2>(1).transpose(),
-          .foot_r = row.segment<2>(3).transpose(),
-          .knee_l = row.segment<2>(5).transpose(),
-          .foot_l = row.segment<2>(7).transpose()};
+Pose to_pose(const Eigen::RowVectorXd& row) {
+  Pose pose;
+  std::ranges::copy(row, pose.m.begin());
+  return pose;
 }
 
 double distance(double a, double b) { return std::abs(a - b - std::round(a - b)); }
@@ -50,12 +38,11 @@ void require_whole_stride(const CalibratedTrajectory& run, const std::string& or
 }  // namespace
 
 Pose pose_of(const CalibratedSample& sample, std::string_view foot) {
-  const bool toe = foot == "toe";
-  return {.pelvis_height_m = sample.coordinates[2],
-          .knee_r = sample[BodyPart::knee_r],
-          .foot_r = sample[toe ? BodyPart::toe_r : BodyPart::ankle_r],
-          .knee_l = sample[BodyPart::knee_l],
-          .foot_l = sample[toe ? BodyPart::toe_l : BodyPart::ankle_l]};
+  Pose pose;
+  for (const ComparedPart& each : kPoseParts)
+    if (each.numbers == 2) pose[each.part] = sample[foot == "toe" ? each.toe : each.ankle];
+  pose.pelvis_height_m() = sample.coordinates[2];
+  return pose;
 }
 
 Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions& options,
@@ -67,11 +54,11 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   const auto n = static_cast<Eigen::Index>(run.samples.size());
   const int harmonics = static_cast<int>(std::clamp<Eigen::Index>(n / 4, 1, 8));
   Eigen::MatrixXd rows(n, 2 * harmonics + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, kNumbers> values(n, kNumbers);
+  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(kPoseNumbers)> values(n, kPoseNumbers);
   for (Eigen::Index i = 0; i < n; ++i) {
     const CalibratedSample& sample = run.samples[static_cast<std::size_t>(i)];
     rows.row(i) = fourier_basis(sample.phase, harmonics).transpose();
-    values.row(i) = numbers(pose_of(sample, options.foot));
+    values.row(i) = pose_of(sample, options.foot).row();
   }
   const Eigen::MatrixXd curves = rows.completeOrthogonalDecomposition().solve(values);
 
@@ -93,11 +80,11 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   for (int k = 0; k < options.count; ++k) {
     const double phase = static_cast<double>(k) / options.count;
     const auto target = [&](double at) {
-      return pose(fourier_basis(at, harmonics).transpose() * curves);
+      return to_pose(fourier_basis(at, harmonics).transpose() * curves);
     };
     Pose mean = target(phase);
     if (options.symmetric)
-      mean = pose(0.5 * (numbers(mean) + numbers(target(phase + 0.5).mirrored())));
+      mean = to_pose(0.5 * (mean.row() + target(phase + 0.5).mirrored().row()));
     const auto nearest = std::ranges::min_element(
         run.samples, {}, [&](const auto& sample) { return distance(sample.phase, phase); });
     potential.keyframes.push_back(

@@ -8,7 +8,7 @@
 namespace stride {
 
 struct KeyframeOptions {
-  int count = 8;               // a stride: the paper's four a half step
+  int count = kKeyframesPerStride;
   std::string foot = "ankle";  // or "toe"
   /// Makes the left leg the right one's mirror image half a stride later, as learning from mirrored
   /// experience needs it; false keeps the runner's own asymmetry.

@@ -1,6 +1,7 @@
 #include "shaping/potential.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -9,28 +10,14 @@
 namespace stride {
 namespace {
 
-/// The paper's inverse distances, bounded at d = 0 by ε.
-double inverse_distance(InverseDistance function, const Eigen::Vector2d& d, double epsilon) {
-  switch (function) {
-    case InverseDistance::pf1:
-      return 1 / (std::abs(d.x()) + std::abs(d.y()) + epsilon);
-    case InverseDistance::pf2:
-      return 1 / std::sqrt(d.squaredNorm() + epsilon * epsilon);
-    case InverseDistance::pf3:
-      return 1 / (d.squaredNorm() + epsilon * epsilon);
-  }
-  return 0;
-}
-
 /// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so that it is
 /// compared by its height.
 double closeness(const Potential& potential, const Pose& pose, const Pose& target) {
-  const auto of = [&](const Eigen::Vector2d& d) {
-    return inverse_distance(potential.function, d, potential.epsilon_m);
-  };
-  return potential.weight * (of({0, pose.pelvis_height_m - target.pelvis_height_m}) +
-                             of(pose.knee_r - target.knee_r) + of(pose.foot_r - target.foot_r) +
-                             of(pose.knee_l - target.knee_l) + of(pose.foot_l - target.foot_l));
+  double sum = 0;
+  for (const ComparedPart& each : kPoseParts)
+    sum += inverse_distance(potential.function, displacement(target, pose, each.part),
+                            potential.epsilon_m);
+  return potential.weight * sum;
 }
 
 double modulo(double value, double period) { return value - period * std::floor(value / period); }
@@ -58,14 +45,6 @@ std::vector<double> periodic_spline_weights(std::size_t n, double position) {
 
 }  // namespace
 
-Pose Pose::mirrored() const {
-  return {.pelvis_height_m = pelvis_height_m,
-          .knee_r = knee_l,
-          .foot_r = foot_l,
-          .knee_l = knee_r,
-          .foot_l = foot_r};
-}
-
 double Potential::operator()(const Pose& pose, double phase) const {
   if (index == PotentialIndex::time) return closeness(*this, pose, target(phase));
   double nearest = 0;
@@ -83,38 +62,21 @@ Pose Potential::target(double phase) const {
   Pose pose;
   for (std::size_t k = 0; k < n; ++k) {
     const Pose& key = keyframes[k].pose;
-    pose.pelvis_height_m += weights[k] * key.pelvis_height_m;
-    pose.knee_r += weights[k] * key.knee_r;
-    pose.foot_r += weights[k] * key.foot_r;
-    pose.knee_l += weights[k] * key.knee_l;
-    pose.foot_l += weights[k] * key.foot_l;
+    for (std::size_t i = 0; i < kPoseNumbers; ++i) pose.m[i] += weights[k] * key.m[i];
   }
   return pose;
 }
 
-double shaping_reward(double phi, double phi_next, double gamma, bool terminated) {
-  return gamma * (terminated ? 0 : phi_next) - phi;
+InverseDistance inverse_distance(std::string_view name) {
+  const auto found = kInverseDistances.find(name);
+  require(found.has_value(), "function = '{}': must be {}", name, kInverseDistances.list(" or "));
+  return *found;
 }
 
-std::string_view name(InverseDistance function) {
-  constexpr std::array<std::string_view, 3> names{"pf1", "pf2", "pf3"};
-  return names[static_cast<std::size_t>(function)];
-}
-
-InverseDistance inverse_distance(std::string_view wanted) {
-  for (const auto function : {InverseDistance::pf1, InverseDistance::pf2, InverseDistance::pf3})
-    if (name(function) == wanted) return function;
-  throw Error(fmt::format("function = '{}': must be pf1, pf2 or pf3", wanted));
-}
-
-std::string_view name(PotentialIndex index) {
-  return index == PotentialIndex::time ? "time" : "nearest";
-}
-
-PotentialIndex potential_index(std::string_view wanted) {
-  for (const auto index : {PotentialIndex::time, PotentialIndex::nearest})
-    if (name(index) == wanted) return index;
-  throw Error(fmt::format("index = '{}': must be time or nearest", wanted));
+PotentialIndex potential_index(std::string_view name) {
+  const auto found = kPotentialIndices.find(name);
+  require(found.has_value(), "index = '{}': must be {}", name, kPotentialIndices.list(" or "));
+  return *found;
 }
 
 }  // namespace stride

@@ -1,32 +1,23 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "extract/io/names.h"
+#include "shaping/inverse_distance.h"
+#include "shaping/pose.h"
+
 namespace stride {
-
-/// What the potential compares: where knees and feet are relative to the pelvis origin, and how
-/// high the pelvis is. x forward, y up, axes of the ground, metres. A foot is the ankle (origin of
-/// talus) unless the file says "toe".
-struct Pose {
-  double pelvis_height_m = 0;
-  Eigen::Vector2d knee_r = Eigen::Vector2d::Zero(), foot_r = Eigen::Vector2d::Zero();
-  Eigen::Vector2d knee_l = Eigen::Vector2d::Zero(), foot_l = Eigen::Vector2d::Zero();
-
-  Pose mirrored() const;  // right ↔ left
-};
-
-/// The paper's three functions of the distance of one part (Sec. "Potential function"), bounded at
-/// d = 0 by ε: pf1 1/(|dx| + |dy| + ε), pf2 1/√(dx² + dy² + ε²), pf3 1/(dx² + dy² + ε²).
-enum class InverseDistance { pf1, pf2, pf3 };
 
 /// Which keyframe a pose is compared with: that of the moment, Φ(s, phase), or the nearest one,
 /// Φ(s) = max over them.
 enum class PotentialIndex { time, nearest };
+inline constexpr Names<PotentialIndex> kPotentialIndices({{PotentialIndex::time, "time"},
+                                                          {PotentialIndex::nearest, "nearest"}});
+
+inline constexpr int kKeyframesPerStride = 8;  // the paper's four a half step
 
 struct Keyframe {
   double phase = 0;  // [0, 1)
@@ -42,7 +33,7 @@ struct Potential {
   double speed_m_s = 0;                  // of the video's runner; NaN: not known
   double rms_px = 0, rms_m = 0;          // quality of the fit behind it; NaN: not known
   std::string verdict = "ok";
-  std::vector<Keyframe> keyframes;  // phase k/n; eight a stride at the paper's rate
+  std::vector<Keyframe> keyframes;  // phase k/n; kKeyframesPerStride unless told otherwise
 
   InverseDistance function = InverseDistance::pf3;
   PotentialIndex index = PotentialIndex::time;
@@ -61,13 +52,8 @@ struct Potential {
   Pose target(double phase) const;
 };
 
-/// F(s, s′) = γ Φ(s′) − Φ(s) (Ng, Harada, Russell 1999), with Φ(s′) = 0 where the episode truly
-/// ended (Grześ 2017); a time limit is not an end. γ is the agent's own, per decision.
-double shaping_reward(double phi, double phi_next, double gamma, bool terminated);
-
-std::string_view name(InverseDistance function);  // "pf1" …
+/// The function or index of that name. Throws Error with the list of names.
 InverseDistance inverse_distance(std::string_view name);
-std::string_view name(PotentialIndex index);  // "time", "nearest"
 PotentialIndex potential_index(std::string_view name);
 
 /// Throws Error naming `origin` (a file), key, value and rule where a value breaks its rule.

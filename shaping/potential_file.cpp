@@ -1,4 +1,5 @@
 // NAME.potential.json: reading, writing and the rules of its values.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,44 +41,44 @@ struct Node {
   }
 };
 
-Json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
-
-Eigen::Vector2d point(const Node& node, double (Node::*number)() const) {
-  require(node.json.is_array() && node.json.size() == 2, "{}: {} = {}: must be [x, y]", node.file,
-          node.path, node.json.dump());
-  return {(node[0].*number)(), (node[1].*number)()};
-}
-
 Json to_json(const Pose& pose) {
-  return {{"pelvis_height_m", pose.pelvis_height_m},
-          {"knee_r_m", point(pose.knee_r)},
-          {"foot_r_m", point(pose.foot_r)},
-          {"knee_l_m", point(pose.knee_l)},
-          {"foot_l_m", point(pose.foot_l)}};
+  Json json;
+  for (const ComparedPart& each : kPoseParts) {
+    const std::span<const double> numbers = pose.numbers(each.part);
+    if (numbers.size() == 1)
+      json[std::string(each.key)] = numbers[0];
+    else
+      json[std::string(each.key)] = std::vector<double>(numbers.begin(), numbers.end());
+  }
+  return json;
 }
 
 Pose pose_from(const Node& node, double (Node::*number)() const) {
-  return {.pelvis_height_m = (node["pelvis_height_m"].*number)(),
-          .knee_r = point(node["knee_r_m"], number),
-          .foot_r = point(node["foot_r_m"], number),
-          .knee_l = point(node["knee_l_m"], number),
-          .foot_l = point(node["foot_l_m"], number)};
+  Pose pose;
+  for (const ComparedPart& each : kPoseParts) {
+    const Node part = node[std::string(each.key)];
+    const std::span<double> numbers = pose.numbers(each.part);
+    if (numbers.size() == 1) {
+      numbers[0] = (part.*number)();
+      continue;
+    }
+    require(part.json.is_array() && part.json.size() == numbers.size(),
+            "{}: {} = {}: must be [x, y]", part.file, part.path, part.json.dump());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = (part[i].*number)();
+  }
+  return pose;
 }
 
 template <typename Choice>
-Choice choice(const Node& node, std::initializer_list<Choice> choices) {
-  std::string names;
-  for (const Choice each : choices) {
-    if (name(each) == node.text()) return each;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", name(each));
-  }
-  throw Error(
-      fmt::format("{}: {} = '{}': must be one of {}", node.file, node.path, node.text(), names));
+Choice choice(const Node& node, const Names<Choice>& names) {
+  const auto found = names.find(node.text());
+  require(found.has_value(), "{}: {} = '{}': must be one of {}", node.file, node.path, node.text(),
+          names.list());
+  return *found;
 }
 
 bool is_finite(const Pose& pose) {
-  return std::isfinite(pose.pelvis_height_m) && pose.knee_r.allFinite() &&
-         pose.foot_r.allFinite() && pose.knee_l.allFinite() && pose.foot_l.allFinite();
+  return std::ranges::all_of(pose.m, [](double each) { return std::isfinite(each); });
 }
 
 Json parse(const std::string& content, const std::string& file) {
@@ -147,9 +148,8 @@ Potential load_potential(const std::filesystem::path& path) {
   potential.rms_px = root["fit"]["rms_px"].number_or_unknown();
   potential.rms_m = root["fit"]["rms_m"].number_or_unknown();
   potential.verdict = root["fit"]["verdict"].text();
-  potential.function =
-      choice(root["function"], {InverseDistance::pf1, InverseDistance::pf2, InverseDistance::pf3});
-  potential.index = choice(root["index"], {PotentialIndex::time, PotentialIndex::nearest});
+  potential.function = choice(root["function"], kInverseDistances);
+  potential.index = choice(root["index"], kPotentialIndices);
   potential.epsilon_m = root["epsilon_m"].number();
   potential.weight = root["weight"].number();
   const Node keyframes = root["keyframes"];
@@ -185,8 +185,8 @@ void save(const Potential& potential, const std::filesystem::path& file) {
         {"speed_m_s", potential.speed_m_s}}},
       {"fit",
        {{"rms_px", potential.rms_px}, {"rms_m", potential.rms_m}, {"verdict", potential.verdict}}},
-      {"function", name(potential.function)},
-      {"index", name(potential.index)},
+      {"function", kInverseDistances[potential.function]},
+      {"index", kPotentialIndices[potential.index]},
       {"epsilon_m", potential.epsilon_m},
       {"weight", potential.weight},
       {"keyframes", keyframes}};

@@ -121,7 +121,7 @@ class Clip {
                     sha256_of_file(options_.model), clip_.size.height_m.value_or(0),
                     clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
                     clip_.direction, clip_.slow_motion, clip_.force, k.count, k.foot, k.symmetric,
-                    name(k.function), name(k.index), k.epsilon_m);
+                    kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
     all += fmt::format(" {}", k.weight);
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));

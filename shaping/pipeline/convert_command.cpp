@@ -66,7 +66,8 @@ void add_convert_command(CLI::App& app) {
   convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even");
   convert->add_option("--foot", clip.keyframes.foot, "ankle or toe: the foot of the potential")
       ->check(CLI::IsMember({"ankle", "toe"}));
-  convert->add_option("--function", command->function, "inverse distance: pf1, pf2, pf3");
+  convert->add_option("--function", command->function,
+                      "inverse distance: " + kInverseDistances.list());
   convert->add_option("--index", command->index, "keyframe by time, or nearest");
   convert->add_option("--epsilon", clip.keyframes.epsilon_m, "of the inverse distance, m");
   convert->add_option("--weight", clip.keyframes.weight, "of the potential");

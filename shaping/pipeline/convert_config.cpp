@@ -24,6 +24,12 @@ struct Setting {
             value);
     return value == "true";
   }
+  template <typename Choice>
+  Choice one_of(const Names<Choice>& names) const {
+    const auto found = names.find(value);
+    require(found.has_value(), "{}: {} = '{}': must be one of {}", file, key, value, names.list());
+    return *found;
+  }
   std::string one_of(std::initializer_list<const char*> choices) const {
     std::string names;
     for (const char* each : choices) {
@@ -55,9 +61,9 @@ void apply(const Setting& setting, ClipOptions& clip) {
   else if (key == "symmetric")
     clip.keyframes.symmetric = setting.flag();
   else if (key == "function")
-    clip.keyframes.function = inverse_distance(setting.one_of({"pf1", "pf2", "pf3"}));
+    clip.keyframes.function = setting.one_of(kInverseDistances);
   else if (key == "index")
-    clip.keyframes.index = potential_index(setting.one_of({"time", "nearest"}));
+    clip.keyframes.index = setting.one_of(kPotentialIndices);
   else if (key == "epsilon")
     clip.keyframes.epsilon_m = setting.number();
   else if (key == "weight")

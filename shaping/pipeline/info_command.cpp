@@ -32,16 +32,18 @@ std::string about_potential(const Potential& p) {
       "function  {}, epsilon {} m, weight {}, keyframe by {}, foot = {}\n"
       "fit       {:.2f} px rms, {:.1f} cm\n"
       "phase   pelvis    knee_r          foot_r          knee_l          foot_l (m; +- 1 sd)\n",
-      p.source, p.model, p.verdict, p.period_s, p.period_sd_s, p.speed_m_s, name(p.function),
-      p.epsilon_m, p.weight, name(p.index), p.foot, p.rms_px, 100 * p.rms_m);
+      p.source, p.model, p.verdict, p.period_s, p.period_sd_s, p.speed_m_s,
+      kInverseDistances[p.function], p.epsilon_m, p.weight, kPotentialIndices[p.index], p.foot,
+      p.rms_px, 100 * p.rms_m);
   for (const Keyframe& k : p.keyframes) {
-    text += fmt::format("{:.3f}  {:7.3f}", k.phase, k.pose.pelvis_height_m);
-    for (const auto& q : {k.pose.knee_r, k.pose.foot_r, k.pose.knee_l, k.pose.foot_l})
-      text += fmt::format("  {:6.3f} {:6.3f} ", q.x(), q.y());
-    text += fmt::format("\n     +- {:7.3f}", k.sd.pelvis_height_m);
-    for (const auto& q : {k.sd.knee_r, k.sd.foot_r, k.sd.knee_l, k.sd.foot_l})
-      text += fmt::format("  {:6.3f} {:6.3f} ", q.x(), q.y());
-    text += "\n";
+    const auto row = [](const Pose& pose) {
+      std::string numbers = fmt::format("{:7.3f}", pose.pelvis_height_m());
+      for (const ComparedPart& each : kPoseParts)
+        if (each.numbers == 2)
+          numbers += fmt::format("  {:6.3f} {:6.3f} ", pose[each.part].x(), pose[each.part].y());
+      return numbers;
+    };
+    text += fmt::format("{:.3f}  {}\n     +- {}\n", k.phase, row(k.pose), row(k.sd));
   }
   return text;
 }

@@ -38,9 +38,9 @@ TEST(Keyframes, LieOnTheMeanStrideOfARun) {
   ASSERT_EQ(potential.keyframes.size(), 8u);
   for (const Keyframe& keyframe : potential.keyframes) {
     const double turn = 2 * std::numbers::pi * keyframe.phase;
-    EXPECT_NEAR(keyframe.pose.knee_r.x(), 0.2 * std::sin(turn), 1e-9);
-    EXPECT_NEAR(keyframe.pose.pelvis_height_m, 0.9 + 0.03 * std::sin(2 * turn), 1e-9);
-    EXPECT_EQ(keyframe.sd.knee_r, Eigen::Vector2d(0.01, 0.02));
+    EXPECT_NEAR(keyframe.pose[PosePart::knee_r].x(), 0.2 * std::sin(turn), 1e-9);
+    EXPECT_NEAR(keyframe.pose.pelvis_height_m(), 0.9 + 0.03 * std::sin(2 * turn), 1e-9);
+    EXPECT_EQ(keyframe.sd[PosePart::knee_r], Eigen::Vector2d(0.01, 0.02));
   }
 }
 
@@ -49,10 +49,11 @@ TEST(Keyframes, MakeLegsMirrorImagesUnlessToldOtherwise) {
   for (std::size_t k = 0; k < 8; ++k) {
     const Pose here = potential.keyframes[k].pose,
                later = potential.keyframes[(k + 4) % 8].pose.mirrored();
-    EXPECT_NEAR(here.knee_r.x(), later.knee_r.x(), 1e-9);
-    EXPECT_NEAR(here.foot_l.x(), later.foot_l.x(), 1e-9);
+    EXPECT_NEAR(here[PosePart::knee_r].x(), later[PosePart::knee_r].x(), 1e-9);
+    EXPECT_NEAR(here[PosePart::foot_l].x(), later[PosePart::foot_l].x(), 1e-9);
   }
-  EXPECT_NEAR(potential.keyframes[0].pose.knee_r.x(), 0.005, 1e-9);  // half of the asymmetry
+  EXPECT_NEAR(potential.keyframes[0].pose[PosePart::knee_r].x(), 0.005,
+              1e-9);  // half of the asymmetry
 }
 
 TEST(Keyframes, TakeTheToeForTheFootIfAsked) {
@@ -61,7 +62,7 @@ TEST(Keyframes, TakeTheToeForTheFootIfAsked) {
   options.symmetric = false;
   const Potential potential = make_potential(sines(120), options, "a");
   EXPECT_EQ(potential.foot, "toe");
-  EXPECT_NEAR(potential.keyframes[3].pose.foot_r.y(), 2, 1e-9);
+  EXPECT_NEAR(potential.keyframes[3].pose[PosePart::foot_r].y(), 2, 1e-9);
 }
 
 TEST(Keyframes, NeedAWholeStrideAndAnEvenNumber) {

@@ -25,17 +25,18 @@ TEST(PotentialFile, ReadsBackEveryDoubleAsItWas) {
   Potential potential = load_potential(STRIDE_TEST_DATA "/hamner.potential.json");
   potential.weight = 1.0 / 3;
   potential.epsilon_m = 1e-300;
-  potential.keyframes[5].pose.foot_l.x() = std::nextafter(0.1, 1);
-  potential.keyframes[5].sd.foot_l.x() = std::nan("");
+  potential.keyframes[5].pose[PosePart::foot_l].x() = std::nextafter(0.1, 1);
+  potential.keyframes[5].sd[PosePart::foot_l].x() = std::nan("");
   potential.function = InverseDistance::pf2;
   potential.index = PotentialIndex::nearest;
   save(potential, folder / "p.json");
   const Potential loaded = load_potential(folder / "p.json");
   EXPECT_EQ(loaded.weight, 1.0 / 3);
   EXPECT_EQ(loaded.epsilon_m, 1e-300);
-  EXPECT_EQ(loaded.keyframes[5].pose.foot_l, potential.keyframes[5].pose.foot_l);
-  EXPECT_TRUE(std::isnan(loaded.keyframes[5].sd.foot_l.x()));
-  EXPECT_EQ(loaded.keyframes[5].sd.foot_l.y(), 0.01);
+  EXPECT_EQ(loaded.keyframes[5].pose[PosePart::foot_l],
+            potential.keyframes[5].pose[PosePart::foot_l]);
+  EXPECT_TRUE(std::isnan(loaded.keyframes[5].sd[PosePart::foot_l].x()));
+  EXPECT_EQ(loaded.keyframes[5].sd[PosePart::foot_l].y(), 0.01);
   EXPECT_TRUE(std::isnan(loaded.rms_px));
   EXPECT_EQ(loaded.function, InverseDistance::pf2);
   EXPECT_EQ(loaded.index, PotentialIndex::nearest);
@@ -71,7 +72,7 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
 TEST(PotentialFile, RefusesToWriteWhatItWouldNotRead) {
   const TemporaryFolder folder;
   Potential potential = load_potential(STRIDE_TEST_DATA "/hamner.potential.json");
-  potential.keyframes[2].pose.knee_l.y() = std::nan("");
+  potential.keyframes[2].pose[PosePart::knee_l].y() = std::nan("");
   EXPECT_ERROR(save(potential, folder / "p.json"),
                "keyframes[2] has a coordinate that is not finite");
   EXPECT_FALSE(std::filesystem::exists(folder / "p.json"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shaping/potential.h"
+#include "shaping/shaping_reward.h"
 
 namespace stride {
 namespace {
@@ -21,8 +22,8 @@ TEST(ShapingReward, OfAnEpisodeTelescopes) {
   for (int t = 0; t <= decisions; ++t) {
     const double phase = potential.phase_at(t * decision_s);
     Pose pose = potential.target(phase);
-    pose.foot_l += Eigen::Vector2d(offset(random), offset(random));
-    pose.pelvis_height_m += offset(random);
+    pose[PosePart::foot_l] += Eigen::Vector2d(offset(random), offset(random));
+    pose.pelvis_height_m() += offset(random);
     phi.push_back(potential(pose, phase));
   }
   for (const bool fell : {false, true}) {

@@ -120,7 +120,7 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
   }
   const Pose pose = environment_->pose();
   record = {};
-  record.pose = pack(pose);
+  record.pose = pose;
   record.phase = phase();
   if (setup_.potential != nullptr) {
     record.phi = (*setup_.potential)(pose, record.phase);

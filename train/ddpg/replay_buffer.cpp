@@ -3,9 +3,9 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "extract/io/error.h"
+#include "shaping/shaping_reward.h"
 
 namespace stride::ddpg {
 namespace {
@@ -36,19 +36,6 @@ void prefetch(const Column& column) {
 }
 
 }  // namespace
-
-PackedPose pack(const Pose& pose) {
-  return {pose.pelvis_height_m, pose.knee_r.x(), pose.knee_r.y(), pose.foot_r.x(), pose.foot_r.y(),
-          pose.knee_l.x(),      pose.knee_l.y(), pose.foot_l.x(), pose.foot_l.y()};
-}
-
-Pose unpack(const PackedPose& p) {
-  return {.pelvis_height_m = p[0],
-          .knee_r = {p[1], p[2]},
-          .foot_r = {p[3], p[4]},
-          .knee_l = {p[5], p[6]},
-          .foot_l = {p[7], p[8]}};
-}
 
 template <typename Scalar>
 ReplayBuffer<Scalar>::ReplayBuffer(const Layout& layout, const environment::Mirror& feature_mirror,
@@ -116,24 +103,26 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
 
   for (int s = 0; s < options.batch; ++s) {
     const auto& [round, environment, mirror] = batch.draws[static_cast<std::size_t>(s)];
-    // Up to n steps, fewer at the end of the episode or of what is known. The potentials in
-    // between cancel: Σ γⁱ Fᵢ = γᵐ Φ(s_m) − Φ(s_0).
+    // Up to n steps, fewer at the end of the episode or of what is known. The rewards for shaping
+    // telescope over them: shaping_reward().
     const auto phi = [&, mirrored = mirror](const Record& r) {
       return mirrored ? r.phi_mirrored : r.phi;
     };
     double reward = 0, discount = 1;
+    bool terminated = false;
     std::int64_t last = round;
     for (int i = 0;; ++i) {
       const Record& step = record(last, environment);
       reward += discount * options.reward_scale * step.reward;
-      discount = step.outcome == Outcome::terminated ? 0 : discount * options.gamma;
+      discount *= options.gamma;
+      terminated = step.outcome == Outcome::terminated;
       ++last;
       if (step.outcome != Outcome::continued || i + 1 == options.n_step || last + 1 == rounds_)
         break;
     }
-    if (options.shaped)  // fma: one rounding, however the compiler arranges the lines around it
-      reward +=
-          std::fma(discount, phi(record(last, environment)), -phi(record(round, environment)));
+    if (options.shaped)
+      reward += shaping_reward(phi(record(round, environment)), phi(record(last, environment)),
+                               discount, terminated);
 
     const Eigen::Index here = position(round, environment), next = position(last, environment);
     if (mirror) {
@@ -146,7 +135,7 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
       batch.actions.col(s) = actions_.col(here);
     }
     batch.rewards[s] = static_cast<Scalar>(reward);
-    batch.discounts[s] = static_cast<Scalar>(discount);
+    batch.discounts[s] = static_cast<Scalar>(terminated ? 0 : discount);
   }
 }
 
@@ -155,9 +144,8 @@ void ReplayBuffer<Scalar>::set_potential(const Potential& potential) {
   for (std::int64_t round = first_round(); round < rounds_; ++round)
     for (int e = 0; e < layout_.environments; ++e) {
       Record& r = record(round, e);
-      const Pose pose = unpack(r.pose);
-      r.phi = potential(pose, r.phase);
-      r.phi_mirrored = potential(pose.mirrored(), r.phase + 0.5);
+      r.phi = potential(r.pose, r.phase);
+      r.phi_mirrored = potential(r.pose.mirrored(), r.phase + 0.5);
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,12 +17,6 @@ enum class Outcome : std::uint8_t {
   truncated,   // a decision that ended at the time limit
   ended        // no decision: the record only holds the last state of an episode
 };
-
-/// A pose as it is stored: pelvis height, then x, y of right knee, right foot, left knee, left
-/// foot.
-using PackedPose = std::array<double, 9>;
-PackedPose pack(const Pose& pose);
-Pose unpack(const PackedPose& packed);
 
 /// Samples as the update wants them, one column or element a sample. Rewards are n-step sums
 /// including shaping; `discount` is γ to the number of steps, 0 after a fall.
@@ -73,7 +66,7 @@ class ReplayBuffer {
     Outcome outcome = Outcome::continued;
     double reward = 0;  // of the environment, summed over the repeated action
     double phase = 0;
-    PackedPose pose{};
+    Pose pose;
     double phi = 0, phi_mirrored = 0;  // Φ(pose, phase), Φ(mirrored pose, phase + ½)
   };
 

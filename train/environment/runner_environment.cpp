@@ -153,11 +153,11 @@ Pose RunnerEnvironment::pose() const {
                            bodies[body].position.y - state.q[2]);
   };
   Pose pose;
-  pose.pelvis_height_m = state.q[2];
-  pose.knee_r = from_pelvis(knee_r_);
-  pose.knee_l = from_pelvis(knee_l_);
-  pose.foot_r = from_pelvis(foot_r_);
-  pose.foot_l = from_pelvis(foot_l_);
+  pose.pelvis_height_m() = state.q[2];
+  pose[PosePart::knee_r] = from_pelvis(knee_r_);
+  pose[PosePart::knee_l] = from_pelvis(knee_l_);
+  pose[PosePart::foot_r] = from_pelvis(foot_r_);
+  pose[PosePart::foot_l] = from_pelvis(foot_l_);
   return pose;
 }
 

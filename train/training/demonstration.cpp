@@ -48,8 +48,7 @@ Demonstration load_run_demonstration(const TrainOptions& options, const fs::path
   potential.weight *= shaping.scale;
   if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
   if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
-  if (!shaping.index.empty())
-    potential.index = shaping.index == "nearest" ? PotentialIndex::nearest : PotentialIndex::time;
+  if (!shaping.index.empty()) potential.index = potential_index(shaping.index);
   return demonstration;
 }
 

@@ -12,10 +12,19 @@
 
 #include "extract/io/error.h"
 #include "extract/io/toml.h"
+#include "shaping/potential.h"
 
 namespace stride::training {
 namespace fs = std::filesystem;
 namespace {
+
+/// The names of an enumeration as choices of a setting that may be left empty.
+template <typename Choice>
+std::vector<std::string> names_or_empty(const Names<Choice>& names) {
+  std::vector<std::string> choices{""};
+  for (const auto& [value, name] : names) choices.emplace_back(name);
+  return choices;
+}
 
 using Value = std::variant<bool*, int*, std::int64_t*, double*, std::string*, std::vector<int>*>;
 
@@ -96,18 +105,10 @@ std::vector<Field> fields(TrainOptions& o) {
        &o.shaping.source},
       {"shaping.scale", "on the file's weight", &o.shaping.scale, 0},
       {"shaping.epsilon_m", "bounds 1/d; -1: the file's", &o.shaping.epsilon_m, -1},
-      {"shaping.function",
-       "empty: the file's",
-       &o.shaping.function,
-       -kInf,
-       kInf,
-       {"", "pf1", "pf2", "pf3"}},
-      {"shaping.index",
-       "empty: the file's",
-       &o.shaping.index,
-       -kInf,
-       kInf,
-       {"", "time", "nearest"}},
+      {"shaping.function", "empty: the file's", &o.shaping.function, -kInf, kInf,
+       names_or_empty(kInverseDistances)},
+      {"shaping.index", "empty: the file's", &o.shaping.index, -kInf, kInf,
+       names_or_empty(kPotentialIndices)},
 
       {"agent.actor_hidden", "neurons of each layer", &o.agent.actor_hidden, 1, 4096},
       {"agent.critic_hidden", "neurons of each layer", &o.agent.critic_hidden, 1, 4096},

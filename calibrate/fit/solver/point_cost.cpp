@@ -87,7 +87,7 @@ bool PointCost::Evaluate(double const* const* parameters, double* residuals,
   for (int row = 0; row < 2; ++row) {
     residuals[row] = r[row].a;
     const auto& d = r[row].v;
-    const auto fill = [&, block = 0](auto derivative) mutable {  // in the order of the arguments
+    auto fill = [&, block = 0](auto derivative) mutable {  // in the order of the arguments
       const int size = parameter_block_sizes()[block];
       double* jacobian = jacobians[block++];
       if (jacobian == nullptr) return;

@@ -34,10 +34,8 @@ Difference compare(const Potential& a, const Potential& b) {
   };
   for (std::size_t k = 0; k < a.keyframes.size(); ++k) {
     const Keyframe &p = a.keyframes[k], &q = b.keyframes[k];
-    add(p.pose.pelvis_height_m, q.pose.pelvis_height_m, p.sd.pelvis_height_m, q.sd.pelvis_height_m);
-    for (const auto& part : {&Pose::knee_r, &Pose::foot_r, &Pose::knee_l, &Pose::foot_l})
-      for (const int axis : {0, 1})
-        add((p.pose.*part)[axis], (q.pose.*part)[axis], (p.sd.*part)[axis], (q.sd.*part)[axis]);
+    for (std::size_t i = 0; i < kPoseNumbers; ++i)
+      add(p.pose.m[i], q.pose.m[i], p.sd.m[i], q.sd.m[i]);
   }
   return d;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shaping/shaping_reward.h"
 #include "tests/train/support/point_mass.h"
 
 namespace stride {
@@ -14,11 +15,7 @@ Potential some_potential() {
   for (int k = 0; k < 8; ++k) {
     Keyframe key;
     key.phase = k / 8.0;
-    key.pose = {.pelvis_height_m = 0.9,
-                .knee_r = {0.05 * k, -0.4},
-                .foot_r = {0.1, -0.8},
-                .knee_l = {-0.02 * k, -0.4},
-                .foot_l = {0.1, -0.8 + 0.01 * k}};
+    key.pose = {{0.9, 0.05 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
     potential.keyframes.push_back(key);
   }
   return potential;
@@ -92,7 +89,7 @@ TEST(Explorer, ShapingTelescopesOverWholeRecordedEpisodes) {
     for (const bool mirrored : {false, true}) {
       const auto phi = [&](std::int64_t round) {
         const auto& r = buffer.record(round, 0);
-        const Pose pose = ddpg::unpack(r.pose);
+        const Pose& pose = r.pose;
         const double value =
             mirrored ? potential(pose.mirrored(), r.phase + 0.5) : potential(pose, r.phase);
         EXPECT_EQ(value, mirrored ? r.phi_mirrored : r.phi);
@@ -140,7 +137,7 @@ TEST(Explorer, RecordsStatesInTheirOrderWithTheLastOfAnEpisode) {
       EXPECT_EQ(next.phase, 0);
     }
     // The pose is of the state whose features stand beside it.
-    EXPECT_NEAR(now.pose[0], 1 + buffer.features(round, 0)[0], 1e-12);
+    EXPECT_NEAR(now.pose.pelvis_height_m(), 1 + buffer.features(round, 0)[0], 1e-12);
   }
   EXPECT_GE(recorded.episodes.size(), ended);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "shaping/shaping_reward.h"
 #include "tests/support/throws.h"
 
 namespace stride {
@@ -147,23 +148,23 @@ TEST(ReplayBuffer, MirroredShapingIsThatOfTheMirroredPoseHalfAStrideLater) {
   for (int k = 0; k < 8; ++k) {
     Keyframe key;
     key.phase = k / 8.0;
-    key.pose.pelvis_height_m = 0.9 + 0.02 * normal(random);
-    for (auto* p : {&key.pose.knee_r, &key.pose.foot_r, &key.pose.knee_l, &key.pose.foot_l})
-      *p = {0.3 * normal(random), -0.5 + 0.1 * normal(random)};
+    key.pose.pelvis_height_m() = 0.9 + 0.02 * normal(random);
+    for (const auto part : {PosePart::knee_r, PosePart::foot_r, PosePart::knee_l, PosePart::foot_l})
+      for (double& each : key.pose.numbers(part)) each = -0.3 + 0.2 * normal(random);
     potential.keyframes.push_back(key);
   }
   ddpg::ReplayBuffer<double> buffer = filled(20, 1000, random);
   for (std::int64_t round = 0; round < 20; ++round)
     for (int e = 0; e < kEnvironments; ++e) {
       Pose pose = potential.target(uniform(random));
-      pose.knee_r.x() += 0.1;
-      buffer.record(round, e).pose = ddpg::pack(pose);
+      pose[PosePart::knee_r].x() += 0.1;
+      buffer.record(round, e).pose = pose;
     }
   buffer.set_potential(potential);
   for (std::int64_t round = 0; round < 20; ++round)
     for (int e = 0; e < kEnvironments; ++e) {
       const auto& record = buffer.record(round, e);
-      const Pose pose = ddpg::unpack(record.pose);
+      const Pose& pose = record.pose;
       EXPECT_EQ(record.phi, potential(pose, record.phase));
       EXPECT_EQ(record.phi_mirrored, potential(pose.mirrored(), record.phase + 0.5));
     }

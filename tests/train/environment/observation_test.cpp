@@ -104,8 +104,8 @@ TEST_F(Observation, OfAMirroredRunIsTheMirroredObservation) {
               1e-7)
         << "decision " << decision;
     const Pose pose = runner_.pose().mirrored(), other_pose = other.pose();
-    EXPECT_LT((pose.foot_r - other_pose.foot_r).norm(), 1e-9);
-    EXPECT_LT((pose.knee_l - other_pose.knee_l).norm(), 1e-9);
+    EXPECT_LT((pose[PosePart::foot_r] - other_pose[PosePart::foot_r]).norm(), 1e-9);
+    EXPECT_LT((pose[PosePart::knee_l] - other_pose[PosePart::knee_l]).norm(), 1e-9);
   }
 }
 

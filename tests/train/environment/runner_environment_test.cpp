@@ -121,7 +121,7 @@ TEST_P(Runner, FallEndsTheEpisodeAndTheTimeLimitCutsIt) {
   EXPECT_EQ(steps + 1, 56);  // OpenSim: done at 0.56 s
   EXPECT_EQ(falling.tally().falls, 1);
   EXPECT_EQ(falling.tally().failures, 0);
-  EXPECT_LT(falling.pose().pelvis_height_m, competition::kFallHeight_m);
+  EXPECT_LT(falling.pose().pelvis_height_m(), competition::kFallHeight_m);
 }
 
 TEST_P(Runner, WhatCannotBeIntegratedIsAFallThatIsCounted) {
@@ -212,10 +212,12 @@ TEST_P(Runner, PoseIsRelativeToThePelvis) {
   environment::RunnerEnvironment environment(model_, options());
   const Eigen::VectorXd observation = environment.reset(0);
   const Pose pose = environment.pose();
-  EXPECT_EQ(pose.pelvis_height_m, 0.91);
-  EXPECT_NEAR(pose.foot_r.x(), element(environment, observation, "talus_r_x"), 1e-15);
-  EXPECT_NEAR(pose.foot_r.y(), element(environment, observation, "talus_r_y") - 0.91, 1e-15);
-  EXPECT_NEAR(pose.knee_l.y(), element(environment, observation, "tibia_l_y") - 0.91, 1e-15);
+  EXPECT_EQ(pose.pelvis_height_m(), 0.91);
+  EXPECT_NEAR(pose[PosePart::foot_r].x(), element(environment, observation, "talus_r_x"), 1e-15);
+  EXPECT_NEAR(pose[PosePart::foot_r].y(), element(environment, observation, "talus_r_y") - 0.91,
+              1e-15);
+  EXPECT_NEAR(pose[PosePart::knee_l].y(), element(environment, observation, "tibia_l_y") - 0.91,
+              1e-15);
 }
 
 TEST(RunnerOptionsAre, CheckedByName) {

@@ -41,13 +41,7 @@ class PointMass : public environment::Environment {
   }
 
   Pose pose() const override {
-    Pose pose;
-    pose.pelvis_height_m = 1 + x_;
-    pose.knee_r = {0.1 * x_, -0.4};
-    pose.foot_r = {0.2 * v_, -0.8};
-    pose.knee_l = {-0.1 * x_, -0.4};
-    pose.foot_l = {0.1, -0.8 + 0.1 * v_};
-    return pose;
+    return {{1 + x_, 0.1 * x_, -0.4, 0.2 * v_, -0.8, -0.1 * x_, -0.4, 0.1, -0.8 + 0.1 * v_}};
   }
   double time_s() const override { return steps_ * spec_.step_s; }
   double distance_m() const override { return -std::abs(x_); }  // from the goal: higher is better

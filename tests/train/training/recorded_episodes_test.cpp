@@ -86,7 +86,7 @@ TEST(RecordedEpisodes, ShapingTelescopesUnderRepeatMirrorFallsAndTimeLimits) {
         const double time_s = 0.03 * static_cast<double>(of - start);
         const double phase = potential.phase_at(time_s);
         EXPECT_NEAR(std::remainder(record.phase - phase, 1), 0, 1e-12);
-        const Pose pose = ddpg::unpack(record.pose);
+        const Pose& pose = record.pose;
         return mirrored ? potential(pose.mirrored(), phase + 0.5) : potential(pose, phase);
       };
       for (const bool mirrored : {false, true}) {
