@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -24,8 +25,7 @@ double standard_deviation(const std::vector<double>& values) {
 
 /// Student's t for a two-sided 95 % interval.
 double student_95(std::size_t degrees) {
-  constexpr std::array kT{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  return degrees <= kT.size() ? kT[degrees - 1] : 1.96;
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees)), 0.975);
 }
 
 std::optional<Reached> first_reached(const Table& curve, const Table& timing, double distance_m) {
