@@ -17,6 +17,7 @@
 #include "extract/annotation/labelled_clip.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/video/overlay.h"
 
 namespace stride::pipeline {
 namespace fs = std::filesystem;
@@ -24,6 +25,7 @@ namespace {
 
 constexpr const char* kTrajectory = ".trajectory.csv";
 constexpr const char* kCalibrated = ".calibrated.csv";
+constexpr const char* kOverlay = ".overlay.mp4";
 
 bool ends_with(const fs::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
@@ -51,7 +53,8 @@ class Clip {
     if (is_video(input_)) annotation::fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
     if (!options_.again && is_done(stamp)) return result_;
-    const CalibratedTrajectory run = calibrated();
+    const CalibratedTrajectory run =
+        ends_with(input_, kCalibrated) ? loaded() : calibrated(tracked());
     save(make_potential(run, clip_.keyframes, input_.string()), out(".potential.json"));
     write_stamp(stamp);
     return result_;
@@ -71,14 +74,14 @@ class Clip {
  private:
   fs::path out(const char* ending) const { return options_.out / (result_.name + ending); }
 
-  CalibratedTrajectory calibrated() {
-    if (ends_with(input_, kCalibrated)) {
-      const CalibratedTrajectory run = load_calibrated(input_);
-      result_.frames = static_cast<int>(run.samples.size());
-      describe(run, run.samples.back().time_s - run.samples.front().time_s);
-      return run;
-    }
-    Trajectory trajectory = ends_with(input_, kTrajectory) ? load_trajectory(input_) : tracked();
+  CalibratedTrajectory loaded() {
+    CalibratedTrajectory run = load_calibrated(input_);
+    result_.frames = static_cast<int>(run.samples.size());
+    describe(run, run.samples.back().time_s - run.samples.front().time_s);
+    return run;
+  }
+
+  CalibratedTrajectory calibrated(Trajectory trajectory) {
     if (!clip_.direction.empty()) trajectory.direction = clip_.direction;
     result_.frames = static_cast<int>(trajectory.frames.size());
     const Calibration calibration = calibrate(trajectory, model_, fit::fit_options(clip_.size));
@@ -96,10 +99,12 @@ class Clip {
   }
 
   Trajectory tracked() {
+    if (ends_with(input_, kTrajectory)) return load_trajectory(input_);
     const tracking::LabelledClip labelled =
         tracking::clicks_on(input_, keypoints_file_of(input_), clip_.slow_motion);
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
     save(trajectory, out(kTrajectory));
+    if (options_.overlay) video::write_overlay(input_, trajectory, out(kOverlay));
     return trajectory;
   }
 
@@ -132,6 +137,7 @@ class Clip {
     if (!fs::exists(out(".converted.json")) || !fs::exists(out(".potential.json"))) return false;
     const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg"));
     if (options_.pictures && !drawn) return false;
+    if (options_.overlay && is_video(input_) && !fs::exists(out(kOverlay))) return false;
     const auto json = nlohmann::json::parse(read_file(out(".converted.json")), nullptr, false);
     if (!json.is_object() || json.value("inputs", "") != stamp) return false;
     const auto number = [&](const char* key) {

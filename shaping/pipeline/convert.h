@@ -27,7 +27,8 @@ struct ConvertOptions {
   std::map<std::string, ClipOptions> by_clip;  // instead, for the clip of that NAME
   int threads = 0;                             // 0: one for each processor
   bool pictures = true;
-  bool again = false;                                     // also what has not changed
+  bool overlay = false;  // also NAME.overlay.mp4 of a video: the tracked points on its frames
+  bool again = false;    // also what has not changed
   std::function<void(const std::string& line)> progress;  // one call at a time
 };
 

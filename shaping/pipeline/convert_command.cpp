@@ -74,6 +74,8 @@ void add_convert_command(CLI::App& app) {
   convert->add_flag("--keep-asymmetry", command->asymmetric,
                     "do not make the legs mirror images of one another");
   convert->add_option("--threads", options.threads, "clips at a time (default: processors)");
+  convert->add_flag("--overlay", options.overlay,
+                    "also write NAME.overlay.mp4, the tracked points on every frame");
   convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");
   convert->add_flag("--again", options.again, "convert also what has not changed");
   convert->add_flag("--force", clip.force, "convert clips that were refused, where there is a fit");
