@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A normal prior on the entries of a block.
+/// A normal prior on the entries of a block. An entry without one does not compile.
 template <std::size_t N>
-void add_prior(ceres::Problem& ceres, std::array<double, N>& block,
-               const std::array<Prior, N>& priors) {
+void add_prior(ceres::Problem& ceres, std::array<double, N>& block, const Prior (&priors)[N]) {
   ceres::Matrix inverse_sd = ceres::Matrix::Zero(N, N);
   ceres::Vector mean(N);
   for (std::size_t i = 0; i < N; ++i) {
@@ -60,14 +59,14 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1. It
   // tells where every stride was clicked at the same few phases.
   for (auto* curve : {&r.hip, &r.knee, &r.ankle}) {
-    std::array<Prior, kSizeOf<&Runner::hip>> priors;
+    Prior priors[kSizeOf<&Runner::hip>];
     priors[0] = {0, 180 * kDegree};
     for (int h = 1; h <= kMaxHarmonics; ++h)
       priors[2 * h - 1] = priors[2 * h] = {0, 200 * kDegree / (h * h * h)};
     add_prior(ceres, *curve, priors);
   }
-  std::array<Prior, asymmetry::size> asymmetry;
-  asymmetry.fill({0, 3 * kDegree});
+  Prior asymmetry[asymmetry::size];
+  std::ranges::fill(asymmetry, Prior{0, 3 * kDegree});
   add_prior(ceres, r.asymmetry, asymmetry);
 
   if (!options.metres_per_pixel)
