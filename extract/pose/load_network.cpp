@@ -7,9 +7,9 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/pose/net.h"
 #include "extract/pose/network.h"
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/graph.h"
+#include "extract/pose/tflite/net.h"
 
 namespace stride::pose {
 namespace {
@@ -17,9 +17,9 @@ namespace {
 constexpr double kTolerance = 1e-3;  // of a number of the self-check, relative where it is above 1
 constexpr const char* kCure = "run ./setup.sh --pose to fetch the network that Stride knows";
 
-Graph read_graph(const std::filesystem::path& file, int side, const SelfCheck& check) {
-  Graph graph = read_tflite(read_file(file));
-  const Shape expected{1, side, side, 3};
+tflite::Graph read_graph(const std::filesystem::path& file, int side, const SelfCheck& check) {
+  tflite::Graph graph = tflite::read_tflite(read_file(file));
+  const tflite::Shape expected{1, side, side, 3};
   require(graph.shape(graph.input) == expected, "its input is {}: must be {}",
           graph.shape(graph.input), expected);
   for (const CheckedOutput& output : check) {
@@ -64,9 +64,9 @@ void check_itself(cv::dnn::Net& net, int side, const std::vector<SelfCheck>& che
 cv::dnn::Net load_network(const std::filesystem::path& file, int side,
                           const std::vector<SelfCheck>& checks) {
   try {
-    Graph graph = read_graph(file, side, checks.front());
-    fold_padding(graph);
-    cv::dnn::Net net = net_of(graph);
+    tflite::Graph graph = read_graph(file, side, checks.front());
+    tflite::fold_padding(graph);
+    cv::dnn::Net net = tflite::net_of(graph);
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     check_itself(net, side, checks);
     return net;

@@ -21,30 +21,20 @@ constexpr double kSeenWell = 0.5;     // height of a heat map
 constexpr double kMostUnseen = 0.25;  // of the frames between the first and the last
 constexpr int kFewestFrames = 10;
 
-/// Which landmarks a part is the mean of, and its standard deviation, of each coordinate, in leg
-/// lengths where its heat map reaches 0.9. Measured on our clips, the difference between the
-/// network's and our idea of a joint included (tests/bench/BENCHMARK.md).
+/// Which landmarks a part is the mean of.
 struct PartOfLandmarks {
   BodyPart part;
   std::array<std::size_t, 2> landmarks;
-  double sd_legs;
 };
-constexpr std::array kParts{PartOfLandmarks{BodyPart::pelvis, {23, 24}, 0.012},
-                            PartOfLandmarks{BodyPart::hip_l, {23, 23}, 0.02},
-                            PartOfLandmarks{BodyPart::hip_r, {24, 24}, 0.02},
-                            PartOfLandmarks{BodyPart::knee_l, {25, 25}, 0.016},
-                            PartOfLandmarks{BodyPart::knee_r, {26, 26}, 0.016},
-                            PartOfLandmarks{BodyPart::ankle_l, {27, 27}, 0.025},
-                            PartOfLandmarks{BodyPart::ankle_r, {28, 28}, 0.025},
-                            PartOfLandmarks{BodyPart::toe_l, {31, 31}, 0.034},
-                            PartOfLandmarks{BodyPart::toe_r, {32, 32}, 0.034},
-                            PartOfLandmarks{BodyPart::head, {7, 8}, 0.03}};
-constexpr double kGrowth =
-    2.7;  // of the logarithm of the noise as the heat map sinks from 0.9 to −0.1
+constexpr std::array kParts{
+    PartOfLandmarks{BodyPart::pelvis, {23, 24}},  PartOfLandmarks{BodyPart::hip_l, {23, 23}},
+    PartOfLandmarks{BodyPart::hip_r, {24, 24}},   PartOfLandmarks{BodyPart::knee_l, {25, 25}},
+    PartOfLandmarks{BodyPart::knee_r, {26, 26}},  PartOfLandmarks{BodyPart::ankle_l, {27, 27}},
+    PartOfLandmarks{BodyPart::ankle_r, {28, 28}}, PartOfLandmarks{BodyPart::toe_l, {31, 31}},
+    PartOfLandmarks{BodyPart::toe_r, {32, 32}},   PartOfLandmarks{BodyPart::head, {7, 8}}};
 
-double noise_px(double sd_legs, double peak, double leg_px) {
-  return sd_legs * leg_px * std::exp(kGrowth * std::max(0.0, 0.9 - peak));
-}
+/// The tracker takes the noise of a point as inverse to its confidence.
+double confidence_of(double peak) { return std::clamp(peak, 0.05, 0.95); }
 
 /// One thread of OpenCV's own while there are two of ours.
 class OneThread {
@@ -145,24 +135,10 @@ std::vector<FollowedPerson> people_in(const std::filesystem::path& video,
 
 }  // namespace
 
-double leg_length_px(const FollowedPerson& person) {
-  std::vector<double> lengths;
-  for (const std::optional<Body>& body : person.frames) {
-    if (!body) continue;
-    for (const std::size_t side : {0, 1}) {
-      const Landmark &hip = body->landmarks[23 + side], &knee = body->landmarks[25 + side],
-                     &ankle = body->landmarks[27 + side];
-      if (std::min({hip.peak, knee.peak, ankle.peak}) >= kSeenWell)
-        lengths.push_back((hip.p_px - knee.p_px).norm() + (knee.p_px - ankle.p_px).norm());
-    }
-  }
-  return lengths.empty() ? 0 : median(std::move(lengths));
-}
-
-imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image, double leg_px) {
+imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
   imports::ImportedFrame result;
   result.frame = frame;
-  for (const auto& [part, landmarks, sd_legs] : kParts) {
+  for (const auto& [part, landmarks] : kParts) {
     const Landmark &a = body.landmarks[landmarks[0]], &b = body.landmarks[landmarks[1]];
     const Vector2d p_px = (a.p_px + b.p_px) / 2;
     const bool inside = p_px.x() >= -0.5 && p_px.y() >= -0.5 && p_px.x() <= image.width - 0.5 &&
@@ -171,8 +147,7 @@ imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image, do
     const double peak = std::min(a.peak, b.peak);
     Point& point = result[part];
     point.p_px = p_px;
-    point.confidence = std::clamp(peak, 0.05, 0.95);
-    point.sd_px = noise_px(sd_legs, peak, leg_px);
+    point.confidence = confidence_of(peak);
   }
   return result;
 }
@@ -192,10 +167,9 @@ NetworkPoints network_points(const std::filesystem::path& video, const NetworkOp
   points.followed = summary(runner);
   check(points.followed, video.string());
   for (const FollowedPerson& person : people) points.detections.people.push_back(described(person));
-  const double leg_px = leg_length_px(runner);
   for (std::size_t i = 0; i < runner.frames.size(); ++i) {
     if (!runner.frames[i]) continue;
-    const auto frame = points_of(*runner.frames[i], static_cast<int>(i), image, leg_px);
+    const auto frame = points_of(*runner.frames[i], static_cast<int>(i), image);
     if (std::ranges::any_of(frame.points, &Point::present))
       points.detections.frames.push_back(frame);
   }

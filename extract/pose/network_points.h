@@ -23,7 +23,7 @@ struct Followed {
 };
 
 struct NetworkPoints {
-  imports::Detections detections;  // with the standard deviation of each point
+  imports::Detections detections;  // with a confidence that falls as the heat map does
   Followed followed;
 };
 
@@ -34,11 +34,8 @@ struct NetworkPoints {
 NetworkPoints network_points(const std::filesystem::path& video,
                              const NetworkOptions& options = {});
 
-/// The parts of one body, with the confidence and the noise that its heat maps deserve; those
-/// outside an image of this size are absent. `leg_px`: hip to ankle.
-imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image, double leg_px);
-
-/// Median length of thigh and shank together, of joints that were seen well.
-double leg_length_px(const FollowedPerson& person);
+/// The parts of one body, the more confident the higher their heat maps; those outside an image of
+/// this size are absent.
+imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image);
 
 }  // namespace stride::pose

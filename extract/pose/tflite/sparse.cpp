@@ -1,11 +1,11 @@
-#include "extract/pose/sparse.h"
+#include "extract/pose/tflite/sparse.h"
 
 #include <algorithm>
 #include <cstdint>
 
-#include "extract/pose/tflite_tensors.h"
+#include "extract/pose/tflite/tensors.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 /// The numbers of a union SparseIndexVector: 32, 16 or 8 bits, of the given type tag.
@@ -105,4 +105,4 @@ std::vector<float> densified(const FlatTable& sparsity, const Shape& shape,
   return result;
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

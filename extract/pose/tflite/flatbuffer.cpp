@@ -1,8 +1,8 @@
-#include "extract/pose/flatbuffer.h"
+#include "extract/pose/tflite/flatbuffer.h"
 
 #include <cstdint>
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 /// Where the offset at a byte leads.
@@ -62,4 +62,4 @@ FlatTable root_table(std::string_view bytes, std::string_view identifier) {
   return {bytes, followed(bytes, 0)};
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -1,11 +1,11 @@
-#include "extract/pose/net.h"
+#include "extract/pose/tflite/net.h"
 
 #include <algorithm>
 #include <map>
 
-#include "extract/pose/depthwise.h"
+#include "extract/pose/tflite/depthwise.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 using cv::dnn::DictValue;
@@ -195,4 +195,4 @@ void fold_padding(Graph& graph) {
   std::erase_if(graph.nodes, [](const Node& node) { return node.output < 0; });
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -1,4 +1,4 @@
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <random>
 
 #include "extract/io/error.h"
-#include "extract/pose/net.h"
+#include "extract/pose/tflite/net.h"
 #include "tests/support/tflite_writer.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 using testing::HasSubstr;
@@ -320,4 +320,4 @@ TEST(TfliteReader, SurvivesAnyDamage) {
 }
 
 }  // namespace
-}  // namespace stride::pose
+}  // namespace stride::tflite

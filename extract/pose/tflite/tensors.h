@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "extract/pose/flatbuffer.h"
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/flatbuffer.h"
+#include "extract/pose/tflite/graph.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// The tensors of a model: their shapes, and the numbers of those that are constant.
 class TfliteTensors {
@@ -45,4 +45,4 @@ class TfliteTensors {
 /// Number of elements.
 std::size_t elements(const Shape& shape);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -1,11 +1,11 @@
-#include "extract/pose/depthwise.h"
+#include "extract/pose/tflite/depthwise.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/dnn/layer.details.hpp>
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 constexpr int kBlock = 32;  // results that are kept in registers
@@ -131,4 +131,4 @@ cv::dnn::LayerParams layer_params(const Depthwise& c) {
   return params;
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// Sizes of a tensor as TensorFlow has them: batch, height, width, channels, or fewer.
 using Shape = std::vector<int>;
@@ -56,4 +56,4 @@ struct Graph {
 /// shape if the file is damaged or asks for anything that Graph cannot say.
 Graph read_tflite(std::string_view content);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -1,13 +1,13 @@
-#include "extract/pose/tflite_tensors.h"
+#include "extract/pose/tflite/tensors.h"
 
 #include <fmt/ranges.h>
 
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "extract/pose/sparse.h"
+#include "extract/pose/tflite/sparse.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 constexpr std::size_t kMostElements = std::size_t{1} << 26;  // of a tensor, and of all constants
@@ -117,4 +117,4 @@ std::vector<int> TfliteTensors::integers(int tensor) const {
   return values;
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "extract/pose/flatbuffer.h"
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/flatbuffer.h"
+#include "extract/pose/tflite/graph.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// A tensor whose zeros were left out, with them: `sparsity` is TensorFlow Lite's
 /// SparsityParameters without blocks, each dimension dense or compressed rows (CSR). `name` is the
@@ -14,4 +14,4 @@ namespace stride::pose {
 std::vector<float> densified(const FlatTable& sparsity, const Shape& shape,
                              const std::vector<float>& values, const std::string& name);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

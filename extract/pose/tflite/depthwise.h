@@ -4,7 +4,7 @@
 #include <opencv2/dnn/dnn.hpp>
 #include <vector>
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// A convolution of each channel with a kernel of its own, then ReLU6 if `relu6`. OpenCV 4.6 takes
 /// half of a pose network's time for these; this is five to ten times faster on small images.
@@ -23,4 +23,4 @@ void apply(const Depthwise& convolution, const cv::Mat& image, cv::Mat& result);
 const char* depthwise_layer_type();
 cv::dnn::LayerParams layer_params(const Depthwise& convolution);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -1,11 +1,11 @@
-#include "extract/pose/tflite_operators.h"
+#include "extract/pose/tflite/operators.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 // Numbers of the schema's BuiltinOperator.
@@ -286,4 +286,4 @@ std::optional<Node> node_of(int code, const FlatTable& table, TfliteTensors& ten
   return std::move(r.node);
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

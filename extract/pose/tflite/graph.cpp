@@ -1,14 +1,14 @@
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/graph.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 
-#include "extract/pose/flatbuffer.h"
-#include "extract/pose/tflite_operators.h"
-#include "extract/pose/tflite_tensors.h"
+#include "extract/pose/tflite/flatbuffer.h"
+#include "extract/pose/tflite/operators.h"
+#include "extract/pose/tflite/tensors.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 namespace {
 
 /// The number of each operator in the schema's BuiltinOperator.
@@ -69,4 +69,4 @@ Graph read_tflite(std::string_view content) {
   return graph;
 }
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

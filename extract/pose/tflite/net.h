@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "extract/pose/tflite.h"
+#include "extract/pose/tflite/graph.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// The graph as a network of OpenCV. Its input is 1 × channels × height × width, so are all tensors
 /// of four sizes; a reshaped tensor has TensorFlow's order. Layers are named as the tensors that
@@ -16,4 +16,4 @@ cv::dnn::Net net_of(const Graph& graph);
 /// Padding that only a convolution without a border of its own uses becomes that border.
 void fold_padding(Graph& graph);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite

@@ -8,7 +8,7 @@
 
 #include "extract/io/error.h"
 
-namespace stride::pose {
+namespace stride::tflite {
 
 /// A value inside a flatbuffer, little-endian. Throws Error if it lies outside.
 template <typename T>
@@ -83,4 +83,4 @@ class FlatTable {
 /// The root table of a flatbuffer whose bytes 4 to 7 are `identifier`.
 FlatTable root_table(std::string_view bytes, std::string_view identifier);
 
-}  // namespace stride::pose
+}  // namespace stride::tflite
