@@ -1,9 +1,9 @@
 #include "extract/pose/follow.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <mutex>
 #include <set>
 
@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kPresent = 0.5;       // presence of a body that was found
 constexpr double kFarthestJump = 0.3;  // of the hips' middle from where it was expected, in crops
+constexpr double kMostLenience = 2;    // of that, after frames on which nobody was seen
 constexpr double kFarthestGrowth = 1.5;
 constexpr double kSamePerson = 0.25;  // crops between two sightings of one person
 constexpr double kLeastSwing = 0.25;  // leg lengths; who stands has less
@@ -100,7 +101,8 @@ struct Path {
 
 bool continues(const Path& path, const Body& body) {
   const Crop expected = path.expected();
-  const double reach = kFarthestJump * (1 + 0.2 * path.missed) * expected.size_px;
+  const double reach =
+      kFarthestJump * std::min(1 + 0.2 * path.missed, kMostLenience) * expected.size_px;
   const double growth = body.next.size_px / expected.size_px;
   return body.presence >= kPresent && (hips(body) - expected.centre_px).norm() < reach &&
          growth < kFarthestGrowth && growth > 1 / kFarthestGrowth;
@@ -141,15 +143,38 @@ void follow(const Frames& frames, const Sighting& from, int step, Viewer& viewer
   }
 }
 
-double swing_of(const FollowedPerson& person) {
-  double squared = 0;
-  for (const std::optional<Body>& body : person.frames) {
+/// Frames on which the feet went apart along the image's x after they had been together, whichever
+/// is called left. Who stands with the feet apart makes no steps.
+std::vector<int> steps_of(const FollowedPerson& person) {
+  std::vector<int> steps;
+  bool apart = false;
+  for (std::size_t i = 0; i < person.frames.size(); ++i) {
+    const std::optional<Body>& body = person.frames[i];
     if (!body) continue;
     const Vector2d &left = body->landmarks[kAnkleL].p_px, &right = body->landmarks[kAnkleR].p_px;
-    const double leg = std::max((left - hips(*body)).norm(), (right - hips(*body)).norm());
-    if (leg > 0) squared += std::pow((left.x() - right.x()) / leg, 2);
+    const double leg = std::max((left - hips(*body)).norm(), (right - hips(*body)).norm()),
+                 distance = std::abs(left.x() - right.x());
+    if (!apart && distance > kApart * leg) steps.push_back(static_cast<int>(i));
+    apart = apart ? distance > kTogether * leg : distance > kApart * leg;
   }
-  return person.seen > 0 ? std::sqrt(squared / person.seen) : 0;
+  return steps;
+}
+
+/// Frames of the longest run of steps whose intervals are alike.
+int longest_striding(const std::vector<int>& steps) {
+  constexpr double kAlike = 1.6;
+  constexpr std::size_t kFewest = 3;  // steps
+  int longest = 0;
+  for (std::size_t first = 0; first < steps.size(); ++first) {
+    int shortest = std::numeric_limits<int>::max(), greatest = 0;
+    for (std::size_t last = first + 1; last < steps.size(); ++last) {
+      shortest = std::min(shortest, steps[last] - steps[last - 1]);
+      greatest = std::max(greatest, steps[last] - steps[last - 1]);
+      if (greatest > kAlike * shortest) break;
+      if (last - first + 1 >= kFewest) longest = std::max(longest, steps[last] - steps[first]);
+    }
+  }
+  return longest;
 }
 
 FollowedPerson followed(const Frames& frames, const Sighting& from, Viewer& forward,
@@ -166,7 +191,7 @@ FollowedPerson followed(const Frames& frames, const Sighting& from, Viewer& forw
   back.get();
   person.seen = static_cast<int>(
       std::ranges::count_if(person.frames, [](const auto& body) { return body.has_value(); }));
-  person.swing = swing_of(person);
+  person.striding = longest_striding(steps_of(person));
   return person;
 }
 
@@ -197,10 +222,8 @@ std::vector<FollowedPerson> follow_people(const Frames& frames, Viewer& forward,
     for (const Sighting& s : sightings) left.insert(s.frame);
     if (left.size() < 2) break;
   }
-  const auto strides = [](const FollowedPerson& p) {
-    return p.seen * (p.swing > kLeastSwing ? 1.0 : 0.1);
-  };
-  std::ranges::stable_sort(people, std::ranges::greater(), strides);
+  std::ranges::stable_sort(people, std::ranges::greater(),
+                           [](const FollowedPerson& p) { return std::pair(p.striding, p.seen); });
   return people;
 }
 

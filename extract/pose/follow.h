@@ -23,14 +23,14 @@ struct Frames {
 
 struct FollowOptions {
   int sampled_frames = 12;                         // on which people are looked for
-  int most_people = 4;                             // that are followed
+  int most_people = 3;                             // that are followed
   std::function<void(int done, int of)> progress;  // frames looked at; from two threads, in turn
 };
 
 struct FollowedPerson {
   std::vector<std::optional<Body>> frames;  // of each frame of the clip; nothing where lost
   int seen = 0;                             // frames
-  double swing = 0;  // rms distance of the ankles along the image's x, in leg lengths
+  int striding = 0;  // frames of the longest time in which steps followed one another regularly
 };
 
 /// Follows everybody who is seen on some of the sampled frames, from where he is seen best, both

@@ -21,20 +21,33 @@ constexpr double kSeenWell = 0.5;     // height of a heat map
 constexpr double kMostUnseen = 0.25;  // of the frames between the first and the last
 constexpr int kFewestFrames = 10;
 
-/// Which landmarks a part is the mean of.
+/// Which landmarks a part is the mean of, and the standard deviation of its error, of each
+/// coordinate in leg lengths, where its heat map reaches 0.9: measured on our clips, the difference
+/// between the network's idea of a joint and ours included.
 struct PartOfLandmarks {
   BodyPart part;
   std::array<std::size_t, 2> landmarks;
+  double sd_legs;
 };
-constexpr std::array kParts{
-    PartOfLandmarks{BodyPart::pelvis, {23, 24}},  PartOfLandmarks{BodyPart::hip_l, {23, 23}},
-    PartOfLandmarks{BodyPart::hip_r, {24, 24}},   PartOfLandmarks{BodyPart::knee_l, {25, 25}},
-    PartOfLandmarks{BodyPart::knee_r, {26, 26}},  PartOfLandmarks{BodyPart::ankle_l, {27, 27}},
-    PartOfLandmarks{BodyPart::ankle_r, {28, 28}}, PartOfLandmarks{BodyPart::toe_l, {31, 31}},
-    PartOfLandmarks{BodyPart::toe_r, {32, 32}},   PartOfLandmarks{BodyPart::head, {7, 8}}};
+constexpr double kKnee = 0.016, kAnkle = 0.025, kToe = 0.034, kHip = 0.02, kHead = 0.03;
+constexpr std::array kParts{PartOfLandmarks{BodyPart::pelvis, {23, 24}, kKnee},
+                            PartOfLandmarks{BodyPart::hip_l, {23, 23}, kHip},
+                            PartOfLandmarks{BodyPart::hip_r, {24, 24}, kHip},
+                            PartOfLandmarks{BodyPart::knee_l, {25, 25}, kKnee},
+                            PartOfLandmarks{BodyPart::knee_r, {26, 26}, kKnee},
+                            PartOfLandmarks{BodyPart::ankle_l, {27, 27}, kAnkle},
+                            PartOfLandmarks{BodyPart::ankle_r, {28, 28}, kAnkle},
+                            PartOfLandmarks{BodyPart::toe_l, {31, 31}, kToe},
+                            PartOfLandmarks{BodyPart::toe_r, {32, 32}, kToe},
+                            PartOfLandmarks{BodyPart::head, {7, 8}, kHead}};
 
-/// The tracker takes the noise of a point as inverse to its confidence.
-double confidence_of(double peak) { return std::clamp(peak, 0.05, 0.95); }
+/// The tracker takes the noise of a point as inverse to its confidence: that of a knee seen well
+/// over this one's. The logarithm of the noise grows as the heat map sinks, likewise measured.
+double confidence_of(double sd_legs, double peak) {
+  constexpr double kMost = 0.95, kLeast = 0.05, kWell = 0.9, kGrowth = 2.7;
+  const double growth = std::exp(kGrowth * std::max(0.0, kWell - peak));
+  return std::max(kLeast, kMost * kKnee / (sd_legs * growth));
+}
 
 /// One thread of OpenCV's own while there are two of ours.
 class OneThread {
@@ -138,7 +151,7 @@ std::vector<FollowedPerson> people_in(const std::filesystem::path& video,
 imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
   imports::ImportedFrame result;
   result.frame = frame;
-  for (const auto& [part, landmarks] : kParts) {
+  for (const auto& [part, landmarks, sd_legs] : kParts) {
     const Landmark &a = body.landmarks[landmarks[0]], &b = body.landmarks[landmarks[1]];
     const Vector2d p_px = (a.p_px + b.p_px) / 2;
     const bool inside = p_px.x() >= -0.5 && p_px.y() >= -0.5 && p_px.x() <= image.width - 0.5 &&
@@ -147,7 +160,7 @@ imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
     const double peak = std::min(a.peak, b.peak);
     Point& point = result[part];
     point.p_px = p_px;
-    point.confidence = confidence_of(peak);
+    point.confidence = confidence_of(sd_legs, peak);
   }
   return result;
 }

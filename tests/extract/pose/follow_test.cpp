@@ -89,8 +89,8 @@ TEST(FollowedPerson, IsFirstTheOneWhoMovesInStridesThoughOthersStandLonger) {
   const auto people = followed({standing(500, 380), runner, standing(200, 380)}, 90);
   ASSERT_EQ(people.size(), 3U);
   EXPECT_TRUE(is_at(people[0], 45, runner));
-  EXPECT_GT(people[0].swing, 0.25);
-  EXPECT_LT(people[1].swing, 0.25);
+  EXPECT_GT(people[0].striding, 60);
+  EXPECT_EQ(people[1].striding, 0);
 }
 
 TEST(FollowedPerson, WhoWasLostIsFoundAgain) {
