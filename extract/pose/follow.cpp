@@ -17,8 +17,8 @@ constexpr double kPresent = 0.5;       // presence of a body that was found
 constexpr double kFarthestJump = 0.3;  // of the hips' middle from where it was expected, in crops
 constexpr double kMostLenience = 2;    // of that, after frames on which nobody was seen
 constexpr double kFarthestGrowth = 1.5;
-constexpr double kSamePerson = 0.25;  // crops between two sightings of one person
-constexpr double kLeastSwing = 0.25;  // leg lengths; who stands has less
+constexpr double kSamePerson = 0.25;             // crops between two sightings of one person
+constexpr double kApart = 0.5, kTogether = 0.2;  // feet, in leg lengths
 constexpr std::size_t kHipL = 23, kHipR = 24, kAnkleL = 27, kAnkleR = 28;
 
 /// Somebody on a sampled frame.

@@ -1,5 +1,6 @@
 #include "extract/tracking/corrections.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
