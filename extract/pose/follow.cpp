@@ -13,12 +13,14 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kPresent = 0.5;       // presence of a body that was found
-constexpr double kFarthestJump = 0.3;  // of the hips' middle from where it was expected, in crops
-constexpr double kMostLenience = 2;    // of that, after frames on which nobody was seen
+constexpr double kPresent = 0.5;  // presence of a body that was found
+// Of the hips' middle from where it was expected, in crops; the first time before any speed is
+// known.
+constexpr double kFarthestJump = 0.15, kFirstJump = 0.3;
+constexpr double kMostLenience = 2;  // of that, after frames on which nobody was seen
 constexpr double kFarthestGrowth = 1.5;
 constexpr double kSamePerson = 0.25;             // crops between two sightings of one person
-constexpr double kApart = 0.5, kTogether = 0.2;  // feet, in leg lengths
+constexpr double kApart = 0.5, kTogether = 0.3;  // feet, in leg lengths
 constexpr std::size_t kHipL = 23, kHipR = 24, kAnkleL = 27, kAnkleR = 28;
 
 /// Somebody on a sampled frame.
@@ -86,6 +88,7 @@ struct Path {
   Crop crop;
   Vector2d step_px = Vector2d::Zero();
   int missed = 0;  // frames since
+  bool speed_is_known = false;
 
   Crop expected() const {
     Crop next = crop;
@@ -96,13 +99,14 @@ struct Path {
     step_px = (seen.centre_px - crop.centre_px) / (missed + 1);
     crop = seen;
     missed = 0;
+    speed_is_known = true;
   }
 };
 
 bool continues(const Path& path, const Body& body) {
   const Crop expected = path.expected();
-  const double reach =
-      kFarthestJump * std::min(1 + 0.2 * path.missed, kMostLenience) * expected.size_px;
+  const double reach = (path.speed_is_known ? kFarthestJump : kFirstJump) *
+                       std::min(1 + 0.2 * path.missed, kMostLenience) * expected.size_px;
   const double growth = body.next.size_px / expected.size_px;
   return body.presence >= kPresent && (hips(body) - expected.centre_px).norm() < reach &&
          growth < kFarthestGrowth && growth > 1 / kFarthestGrowth;

@@ -30,7 +30,7 @@ Body body_of(const Actor& actor, int frame) {
   body.presence = 0.9;
   const Vector2d hips = actor.hips(frame);
   for (Landmark& landmark : body.landmarks) landmark.p_px = hips;
-  const double swing = actor.stride_px * std::cos(0.4 * frame);
+  const double swing = actor.stride_px * std::cos(0.25 * frame);
   body.landmarks[27].p_px += Vector2d(swing, 80);
   body.landmarks[28].p_px += Vector2d(-swing, 80);
   body.next = {hips, kSize_px, 0};
