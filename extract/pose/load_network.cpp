@@ -8,8 +8,8 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/pose/network.h"
-#include "extract/pose/tflite/graph.h"
 #include "extract/pose/tflite/net.h"
+#include "extract/pose/tflite/read.h"
 
 namespace stride::pose {
 namespace {

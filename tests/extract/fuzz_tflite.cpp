@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "extract/pose/tflite/graph.h"
+#include "extract/pose/tflite/read.h"
 #include "tests/support/fuzz.h"
 
 namespace stride {

@@ -1,14 +1,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace stride::tflite {
 
 /// Sizes of a tensor as TensorFlow has them: batch, height, width, channels, or fewer.
 using Shape = std::vector<int>;
+
+/// Their product: the number of elements.
+inline std::size_t elements(const Shape& shape) {
+  std::size_t product = 1;
+  for (const int size : shape) product *= static_cast<std::size_t>(size);
+  return product;
+}
 
 enum class Operation {
   convolution,
@@ -50,10 +57,5 @@ struct Graph {
 
   const Shape& shape(int tensor) const { return shapes[static_cast<std::size_t>(tensor)]; }
 };
-
-/// Reads a TensorFlow Lite file with one input of floats and a batch of one. Weights of 16 bits and
-/// sparse ones are unpacked. Throws Error that names the byte, the operator, the tensor or the
-/// shape if the file is damaged or asks for anything that Graph cannot say.
-Graph read_tflite(std::string_view content);
 
 }  // namespace stride::tflite

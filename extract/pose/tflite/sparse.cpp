@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "extract/pose/tflite/tensors.h"
-
 namespace stride::tflite {
 namespace {
 

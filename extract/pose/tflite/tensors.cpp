@@ -28,12 +28,6 @@ std::vector<float> floats_of(std::string_view bytes, std::int8_t type, const std
 
 }  // namespace
 
-std::size_t elements(const Shape& shape) {
-  std::size_t product = 1;
-  for (const int size : shape) product *= static_cast<std::size_t>(size);
-  return product;
-}
-
 TfliteTensors::TfliteTensors(const FlatTable& model, const FlatTable& subgraph)
     : tensors_(subgraph.vector(0, 4)), buffers_(model.vector(4, 4)) {
   for (std::size_t i = 0; i < tensors_.size(); ++i) {

@@ -42,7 +42,4 @@ class TfliteTensors {
   std::size_t unpacked_ = 0;
 };
 
-/// Number of elements.
-std::size_t elements(const Shape& shape);
-
 }  // namespace stride::tflite

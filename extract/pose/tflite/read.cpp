@@ -1,4 +1,4 @@
-#include "extract/pose/tflite/graph.h"
+#include "extract/pose/tflite/read.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "extract/pose/tflite/graph.h"
+#include "extract/pose/tflite/read.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
