@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/io/statistics.h"
 #include "extract/skeleton/robust_fit.h"
 
 namespace stride::fit {
@@ -21,27 +22,21 @@ std::optional<Prior> ground_roll(const Trajectory& trajectory) {
   if (displacements.size() < 8 || std::abs(passed.x()) < 0.5 * trajectory.width_px)
     return std::nullopt;
   // y = x tan φ, and the camera's own ups and downs; Cauchy's weights against slipped flow.
-  const auto n = static_cast<Eigen::Index>(displacements.size());
-  double tangent = 0, xx = 0;
-  const auto weighted_fit = [&](const Eigen::VectorXd& weights) {
+  double tangent = 0, scale = 1, xx = 0;
+  for (int iteration = 0; iteration < 20; ++iteration) {
     double xy = 0;
     xx = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Vector2d& displacement = displacements[static_cast<std::size_t>(i)];
-      xy += weights[i] * displacement.x() * displacement.y();
-      xx += weights[i] * displacement.x() * displacement.x();
+    std::vector<double> left;
+    for (const Eigen::Vector2d& displacement : displacements) {
+      const double residual = displacement.y() - tangent * displacement.x();
+      const double weight = 1 / (1 + std::pow(residual / (2.5 * scale), 2));
+      xy += weight * displacement.x() * displacement.y();
+      xx += weight * displacement.x() * displacement.x();
+      left.push_back(std::abs(residual));
     }
     tangent = xy / std::max(xx, 1e-9);
-    Eigen::VectorXd distances(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Vector2d& displacement = displacements[static_cast<std::size_t>(i)];
-      distances[i] = std::abs(displacement.y() - tangent * displacement.x());
-    }
-    return distances;
-  };
-  const RobustOptions options{
-      .rounds = 20, .spread_per_median = kSigmaPerMedian, .least_spread = 0.02, .width = 2.5};
-  const double scale = robust_fit(Eigen::VectorXd::Ones(n), options, weighted_fit).spread;
+    scale = std::max(kSigmaPerMedian * median(left), 0.02);
+  }
   // Sway lasts some frames: five neighbours count as one.
   const double sd = std::max(kLeast, std::sqrt(5.0 / xx) * scale);
   if (sd > kSure) return std::nullopt;

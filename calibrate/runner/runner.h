@@ -100,11 +100,12 @@ LegAngles<T> leg_angles(const T* hip, const T* knee, const T* ankle, const T* as
                         int harmonics, int side, const T& phase) {
   const T own = side > 0 ? phase : phase + 0.5;
   const double half = 0.5 * side;
-  const auto angle = [&](const T* mean, int offset) -> T {
-    return evaluate_series(mean, harmonics, own) +
-           half * evaluate_series(asymmetry + offset, kAsymmetryHarmonics, own);
-  };
-  return {angle(hip, asymmetry::hip), angle(knee, asymmetry::knee), angle(ankle, asymmetry::ankle)};
+  return {evaluate_series(hip, harmonics, own) +
+              half * evaluate_series(asymmetry + asymmetry::hip, kAsymmetryHarmonics, own),
+          evaluate_series(knee, harmonics, own) +
+              half * evaluate_series(asymmetry + asymmetry::knee, kAsymmetryHarmonics, own),
+          evaluate_series(ankle, harmonics, own) +
+              half * evaluate_series(asymmetry + asymmetry::ankle, kAsymmetryHarmonics, own)};
 }
 
 /// Where the parts of the model's foot and trunk point, as unit vectors.
