@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "videos/noise.h"
+#include "videos/texture.h"
 #include "videos/patch.h"
 #include "videos/skeleton.h"
 

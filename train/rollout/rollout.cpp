@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "extract/io/error.h"
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 #include "train/simulation/engine/runner_layout.h"
 
 namespace stride::rollout {
@@ -89,9 +89,9 @@ CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& mo
     sample.phase = strides - std::floor(strides);
     for (std::size_t i = 0; i < kCoordinateNames.size(); ++i)
       sample.coordinates[i] = frame.state.q[i];
-    const simulation::Planar origin = frame.kinematics.bodies[pelvis].position;
+    const simulation::PlanarVector origin = frame.kinematics.bodies[pelvis].position;
     for (const BodyPart part : kBodyParts) {
-      const simulation::Planar p =
+      const simulation::PlanarVector p =
           frame.kinematics.bodies[static_cast<std::size_t>(body_of(part, model))].position;
       sample.p_m[static_cast<std::size_t>(index(part))] = {p.x - origin.x, p.y - origin.y};
     }
