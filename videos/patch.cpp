@@ -106,8 +106,8 @@ cv::Rect reach(const Patch& patch, const Profile& profile, const PinholeCamera& 
 const Colour kOutline(0.10F, 0.08F, 0.09F);
 
 /// `widened_m` > 0: the outline alone.
-void paint_one(const Patch& patch, const PinholeCamera& camera, double du, double dv, cv::Mat& image,
-               double widened_m) {
+void paint_one(const Patch& patch, const PinholeCamera& camera, double du, double dv,
+               cv::Mat& image, double widened_m) {
   const Profile profile(patch, widened_m);
   const cv::Rect box = reach(patch, profile, camera, image);
   // (s, t) is affine in (u, v): three points give it.

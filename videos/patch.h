@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "videos/pinhole_camera.h"
 #include "videos/colour.h"
+#include "videos/pinhole_camera.h"
 
 namespace stride::videos {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "videos/pinhole_camera.h"
-#include "videos/texture.h"
 #include "videos/patch.h"
+#include "videos/pinhole_camera.h"
 #include "videos/skeleton.h"
+#include "videos/texture.h"
 
 namespace stride::videos {
 
@@ -26,8 +26,8 @@ class Scenery {
   virtual ~Scenery() = default;
   /// Paints every pixel of an image of floats, one sample at (u + du, v + dv) of each.
   /// `belt_m`: how far the belt of a treadmill has run.
-  void paint(const PinholeCamera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
-             double belt_m, cv::Mat& image) const;
+  void paint(const PinholeCamera& camera, double du, double dv,
+             const std::vector<ShadowBlob>& shadow, double belt_m, cv::Mat& image) const;
 
   /// Things that stand behind and before the runner, seen from the camera's side.
   virtual std::vector<Patch> behind(bool) const { return {}; }

@@ -71,8 +71,9 @@ void draw_flesh_of_leg(Canvas& canvas, const FilmModel& model, const RunnerPictu
   const auto& bodies = picture.kinematics.bodies;
   const FilmModel::Leg& leg = model.legs[side];
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
-  const simulation::PlanarVector hip = bodies[leg.femur].position, knee = bodies[leg.tibia].position,
-                           ankle = bodies[leg.talus].position;
+  const simulation::PlanarVector hip = bodies[leg.femur].position,
+                                 knee = bodies[leg.tibia].position,
+                                 ankle = bodies[leg.talus].position;
   const cv::Scalar skin = mixed(kFlesh, kSky, side == 1 ? 0.5 : 0);
   canvas.flesh(hip, knee, 0.085, 0.055, skin);
   canvas.flesh(knee, between(knee, ankle, 0.3), 0.055, 0.060, skin);
@@ -87,8 +88,9 @@ void draw_leg(Canvas& canvas, const FilmModel& model, const RunnerPicture& pictu
   const cv::Scalar fill = mixed(kBone, kSky, side == 1 ? kFar : 0),
                    rim = mixed(kBoneRim, kSky, side == 1 ? kFar : 0);
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
-  const simulation::PlanarVector hip = bodies[leg.femur].position, knee = bodies[leg.tibia].position,
-                           ankle = bodies[leg.talus].position;
+  const simulation::PlanarVector hip = bodies[leg.femur].position,
+                                 knee = bodies[leg.tibia].position,
+                                 ankle = bodies[leg.talus].position;
   canvas.bone(hip, knee, 0.030, 0.016, fill, rim);
   canvas.bone(knee, ankle, 0.027, 0.013, fill, rim);
   for (const double grown : {0.006, 0.0}) {
@@ -189,7 +191,7 @@ void draw_force(Canvas& canvas, const FilmModel& model, const RunnerPicture& pic
   if (force.y < 20) return;
   const auto& bodies = picture.kinematics.bodies;
   const simulation::PlanarVector heel = bodies[model.legs[side].calcn].position,
-                           ball = bodies[model.legs[side].toes].position;
+                                 ball = bodies[model.legs[side].toes].position;
   const simulation::PlanarVector from{0.5 * (heel.x + ball.x), 0},
       to{from.x + force.x * kForce_m_N, force.y * kForce_m_N};
   const cv::Scalar green(70, 150, 40);
@@ -210,8 +212,10 @@ void draw_figures(cv::Mat& image, const RunnerPicture& picture, const FilmOption
   const double size = options.height_px / 720.0;
   const int line = static_cast<int>(36 * size), margin = static_cast<int>(20 * size);
   write(image, fmt::format("{:5.2f} s", picture.state.time_s), {margin, line}, 0.9 * size);
-  write(image, fmt::format("{:5.2f} m", picture.state.q[simulation::kPelvisX]), {margin, 2 * line}, 0.9 * size);
-  write(image, fmt::format("{:5.2f} m/s", picture.state.u[simulation::kPelvisX]), {margin, 3 * line}, 0.9 * size);
+  write(image, fmt::format("{:5.2f} m", picture.state.q[simulation::kPelvisX]), {margin, 2 * line},
+        0.9 * size);
+  write(image, fmt::format("{:5.2f} m/s", picture.state.u[simulation::kPelvisX]),
+        {margin, 3 * line}, 0.9 * size);
   // The scale of the muscles' colours.
   const int width = static_cast<int>(150 * size),
             top = static_cast<int>(options.height_px - 24 * size),
@@ -262,7 +266,7 @@ FilmModel film_model(const osim::Model& model) {
 }
 
 simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOptions& options,
-                              simulation::PlanarVector p_m) {
+                                    simulation::PlanarVector p_m) {
   const double scale = options.height_px / options.metres_high;
   return {options.width_px / 2.0 + (p_m.x - picture.state.q[simulation::kPelvisX]) * scale,
           options.height_px * kGroundRow - p_m.y * scale};
@@ -270,7 +274,8 @@ simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOpti
 
 cv::Mat film_frame(const FilmModel& model, const RunnerPicture& picture,
                    const FilmOptions& options) {
-  Canvas canvas({options.width_px, options.height_px}, options.metres_high, picture.state.q[simulation::kPelvisX]);
+  Canvas canvas({options.width_px, options.height_px}, options.metres_high,
+                picture.state.q[simulation::kPelvisX]);
   draw_ground(canvas, picture);
   draw_flesh_of_leg(canvas, model, picture, 1);
   draw_leg(canvas, model, picture, 1);

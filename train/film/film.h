@@ -54,6 +54,6 @@ cv::Mat film_frame(const FilmModel& model, const RunnerPicture& picture,
 
 /// Where that frame shows a point of the ground's axes, px.
 simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOptions& options,
-                              simulation::PlanarVector p_m);
+                                    simulation::PlanarVector p_m);
 
 }  // namespace stride::film

@@ -35,7 +35,8 @@ cv::Point2d Canvas::place(simulation::PlanarVector p) const {
           picture_.rows * kGroundRow - p.y * scale_};
 }
 
-void Canvas::disc(simulation::PlanarVector p, double radius_m, const cv::Scalar& colour, int rim_px) {
+void Canvas::disc(simulation::PlanarVector p, double radius_m, const cv::Scalar& colour,
+                  int rim_px) {
   cv::circle(picture_, fixed(place(p)),
              static_cast<int>(std::lround(radius_m * scale_ * (1 << kShift))), colour, rim_px,
              cv::LINE_AA, kShift);
@@ -53,8 +54,8 @@ void Canvas::line(simulation::PlanarVector a, simulation::PlanarVector b, double
            std::max(1, static_cast<int>(std::lround(width_m * scale_))), cv::LINE_AA, kShift);
 }
 
-void Canvas::bone(simulation::PlanarVector a, simulation::PlanarVector b, double end_m, double waist_m,
-                  const cv::Scalar& fill, const cv::Scalar& rim) {
+void Canvas::bone(simulation::PlanarVector a, simulation::PlanarVector b, double end_m,
+                  double waist_m, const cv::Scalar& fill, const cv::Scalar& rim) {
   const double length = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
   const simulation::PlanarVector n{-(b.y - a.y) / length, (b.x - a.x) / length};
   for (const double grown : {0.006, 0.0}) {
@@ -74,8 +75,8 @@ void Canvas::bone(simulation::PlanarVector a, simulation::PlanarVector b, double
   }
 }
 
-void Canvas::flesh(simulation::PlanarVector a, simulation::PlanarVector b, double radius_a_m, double radius_b_m,
-                   const cv::Scalar& colour) {
+void Canvas::flesh(simulation::PlanarVector a, simulation::PlanarVector b, double radius_a_m,
+                   double radius_b_m, const cv::Scalar& colour) {
   const double length = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
   const simulation::PlanarVector n{-(b.y - a.y) / length, (b.x - a.x) / length};
   const double ra = radius_a_m, rb = radius_b_m;

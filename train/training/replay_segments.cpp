@@ -77,7 +77,8 @@ void put_records(network::Tensors& tensors, const std::vector<Record<Scalar>>& r
   tensors.put("pose", poses);
   visit_numbers<Scalar>([&](const char* name, double Record<Scalar>::*member) {
     Eigen::VectorXd column(count);
-    for (Eigen::Index i = 0; i < count; ++i) column[i] = records[static_cast<std::size_t>(i)].*member;
+    for (Eigen::Index i = 0; i < count; ++i)
+      column[i] = records[static_cast<std::size_t>(i)].*member;
     tensors.put(name, column);
   });
 }
@@ -98,15 +99,17 @@ void get_records(const network::Tensors& tensors, std::vector<Record<Scalar>>& r
   visit_numbers<Scalar>([&](const char* name, double Record<Scalar>::*member) {
     Eigen::VectorXd column(count);
     tensors.get(name, column);
-    for (Eigen::Index i = 0; i < count; ++i) records[static_cast<std::size_t>(i)].*member = column[i];
+    for (Eigen::Index i = 0; i < count; ++i)
+      records[static_cast<std::size_t>(i)].*member = column[i];
   });
 }
 
-/// Version 1: the bytes of structs of outcome (1 byte and 7 of nothing), reward, phase, pose, Φ, Φ of
-/// the mirrored pose.
+/// Version 1: the bytes of structs of outcome (1 byte and 7 of nothing), reward, phase, pose, Φ, Φ
+/// of the mirrored pose.
 template <typename Scalar>
 void get_records_version_1(const network::Tensors& tensors, std::vector<Record<Scalar>>& records) {
-  constexpr std::size_t kNumbers = 4 + std::tuple_size_v<ddpg::PackedPose>, kBytes = 8 + 8 * kNumbers;
+  constexpr std::size_t kNumbers = 4 + std::tuple_size_v<ddpg::PackedPose>,
+                        kBytes = 8 + 8 * kNumbers;
   const std::string& bytes = tensors.bytes("records");
   require(bytes.size() == records.size() * kBytes,
           "{}: records of {} bytes, {} are needed: of another run", tensors.file, bytes.size(),

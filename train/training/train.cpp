@@ -266,8 +266,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
 
   const auto evaluate = [&] {
     const network::Policy<Scalar> policy = policy_of(training, options);
-    const CurveRow row =
-        curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
+    const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
     summary.distance_m = row.evaluation_distance_m;
     const auto keep_as = [&](const char* name) {
       journal.keep([&] {

@@ -122,7 +122,8 @@ std::vector<Line> lines_of(const training::TrainOptions& options) {
 std::string settings_table() {
   std::string text =
       "Every setting of a run, its default, and what the presets make of it. Written by\n"
-      "`STRIDE_WRITE_SETTINGS=1 train_learning_test --gtest_filter=Options.TableIsThatOfThePresets`.\n"
+      "`STRIDE_WRITE_SETTINGS=1 train_learning_test "
+      "--gtest_filter=Options.TableIsThatOfThePresets`.\n"
       "\n| setting | default |";
   std::vector<std::vector<Line>> columns{lines_of({})};
   for (const fs::path& file : presets()) {

@@ -42,8 +42,8 @@ TEST(Version010, CalibratedRunsAndPotentials) {
 TEST(Version010, Policies) {
   const network::PolicyNames names = network::load_policy_names(kFiles / "run/agent.safetensors");
   EXPECT_EQ(names.actions.size(), 18U);
-  const auto policy = network::load_policy<float>(kFiles / "run/agent.safetensors", names.features,
-                                                  names.actions);
+  const auto policy =
+      network::load_policy<float>(kFiles / "run/agent.safetensors", names.features, names.actions);
   EXPECT_GT(policy.actor.parameters().size(), 18);
 }
 
@@ -58,10 +58,10 @@ TEST(Version010, RunsGoOnFromTheirCheckpoints) {
   const auto train = [&](std::int64_t decisions) {
     options.run.decisions = decisions;
     training::write_run_options(options, run);
-    return training::train(run,
-                           training::make_runners(options.environment,
-                                                  training::load_run_demonstration(options, run)),
-                           never, nullptr);
+    return training::train(
+        run,
+        training::make_runners(options.environment, training::load_run_demonstration(options, run)),
+        never, nullptr);
   };
   const training::TrainSummary continued = train(100);
   EXPECT_TRUE(continued.finished);

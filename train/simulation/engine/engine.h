@@ -59,8 +59,8 @@ struct RunnerKinematics {
   PlanarVector com, com_velocity;
   std::array<double, kMuscles> tendon_force_N{}, muscle_length_m{};
   std::array<PlanarVector, 2> ground_reaction_N{};  // right foot, left foot: on the foot
-  std::array<double, 6> limit_torque_Nm{};    // in the order of Model::limits
-  double energy_J = 0;                        // kinetic + gravitational
+  std::array<double, 6> limit_torque_Nm{};          // in the order of Model::limits
+  double energy_J = 0;                              // kinetic + gravitational
 };
 
 /// A sphere fixed in the ground at z = 0, which meets the spheres of the feet without friction.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "train/simulation/engine/engine.h"
-#include "train/simulation/planar/planar_contact.h"
 #include "train/simulation/planar/kinematics.h"
+#include "train/simulation/planar/planar_contact.h"
 #include "train/simulation/planar/planar_model.h"
 #include "train/simulation/planar/state.h"
 

@@ -47,7 +47,8 @@ Conserved conserved(simulation::Engine& engine) {
     for (int j = 0; j < simulation::kCoordinates; ++j)
       p[i] += mass[i * simulation::kCoordinates + j] * state.u[j];
   // The tilt's momentum is the angular one about the pelvis.
-  const double about_pelvis = (k.com.x - state.q[simulation::kPelvisX]) * p[2] - (k.com.y - state.q[simulation::kPelvisY]) * p[1];
+  const double about_pelvis = (k.com.x - state.q[simulation::kPelvisX]) * p[2] -
+                              (k.com.y - state.q[simulation::kPelvisY]) * p[1];
   return {k.energy_J, p[1], p[2], p[0] - about_pelvis};
 }
 
