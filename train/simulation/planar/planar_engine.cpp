@@ -65,7 +65,7 @@ class PlanarEngine final : public simulation::Engine {
 
   simulation::AdvanceReport advance(const simulation::Excitations& excitations,
                                     double duration_s) override {
-    const simulation::AdvanceReport report =
+    simulation::AdvanceReport report =
         integrator_.advance(dynamics_, y_, activation_, interleave(excitations), duration_s);
     for (int i = 0; i < simulation::kCoordinates; ++i) {
       state_.q[i] = y_.q(dynamics_.model().coordinate[i]);
