@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "extract/import/formats/formats.h"
@@ -89,31 +88,6 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
       imports::take_person(std::move(people), options, pose.model.string());
   detections.format = "pose";
   return detections;
-}
-
-void add_pose_options(CLI::App& command, PoseOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--pose",
-          [&options](const std::string& model) {
-            options.wanted = true;
-            if (!model.empty() && model != "true") options.model = model;
-          },
-          "the points of a pose network: of the installed one, corrected by clicks if there are "
-          "any, or of MODEL.tflite, or of an .onnx of yours with a .toml beside it")
-      ->expected(0, 1);
-  command.add_option("--pose-config", options.sidecar,
-                     "the model's .toml, if it has another name or place");
-  command
-      .add_option_function<std::vector<double>>(
-          "--pose-box",
-          [&options](const std::vector<double>& box) {
-            require(box[2] > 0 && box[3] > 0, "--pose-box {} {} {} {}: must have a size", box[0],
-                    box[1], box[2], box[3]);
-            options.box_px = cv::Rect2d(box[0], box[1], box[2], box[3]);
-          },
-          "where the person is on the first frame, px: X Y WIDTH HEIGHT (default: whole frames)")
-      ->expected(4);
 }
 
 }  // namespace stride::pose

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 #include "train/training/options.h"
 
 namespace stride::evaluation {

@@ -69,7 +69,7 @@ class Journal {
     if (progress.rows > 0) {
       curve_ = load_rows(run / "curve.csv", curve_, progress.rows);
       timing_ = load_rows(run / "timing.csv", timing_, progress.rows);
-      wall_before_s_ = timing_.rows.back()[1];
+      wall_before_s_ = timing_.rows.back()[timing_.column("wall_s")];
     }
     last_decisions_ = progress.decisions;
     last_updates_ = progress.updates;
@@ -77,14 +77,14 @@ class Journal {
 
   double wall_s() const { return wall_before_s_ + seconds_since(start_); }
 
-  void add_row(const TrainOptions& options, const Progress& progress, std::vector<double> row) {
+  void add_row(const TrainOptions& options, const Progress& progress, const CurveRow& row) {
     const double s = seconds_since(last_row_);
     const auto decisions = static_cast<double>(progress.decisions - last_decisions_);
     const auto updates = static_cast<double>(progress.updates - last_updates_);
     const double steps_per_s = decisions * options.run.action_repeat / s;
-    timing_.rows.push_back({row[0], wall_s(), steps_per_s, updates / s});
-    distance_m_ = row[6];
-    curve_.rows.push_back(std::move(row));
+    timing_.rows.push_back({row.decisions, wall_s(), steps_per_s, updates / s});
+    distance_m_ = row.evaluation_distance_m;
+    curve_.rows.push_back(row.values());
     keep([&] { save_rows(); });
     last_row_ = Clock::now();
     last_decisions_ = progress.decisions;
@@ -266,9 +266,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
 
   const auto evaluate = [&] {
     const network::Policy<Scalar> policy = policy_of(training, options);
-    std::vector<double> row =
-        curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
-    summary.distance_m = row[6];
+    const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
+    summary.distance_m = row.evaluation_distance_m;
     const auto keep_as = [&](const char* name) {
       journal.keep([&] {
         network::save_policy(policy, training.feature_names, training.action_names,
@@ -283,7 +282,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     progress.sums = {};
     ++progress.rows;
     progress.last_row_decisions = progress.decisions;
-    journal.add_row(options, progress, std::move(row));
+    journal.add_row(options, progress, row);
   };
 
   ddpg::Batch<Scalar> batch;
