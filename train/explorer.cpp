@@ -96,7 +96,10 @@ Outcome Explorer<Scalar>::repeat(const Eigen::Ref<const Vector>& action, double&
     episode.reward += step.reward;
     reward += step.reward + setup_.alive_reward_per_s * step_s;
     const bool last = i + 1 == setup_.action_repeat;
-    if (!last && !step.terminated && !step.truncated) continue;
+    if (!last && !step.terminated && !step.truncated) {
+      observer_.watch(step.observation);
+      continue;
+    }
     observer_.follow(step.observation, phase(), features_);
     if (step.terminated) reward += setup_.fall_reward;
     episode.fell = step.terminated;

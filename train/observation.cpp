@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "extract/error.h"
 
@@ -33,16 +34,18 @@ bool is_position_along_ground(const std::string& name) {
 }  // namespace
 
 Observer::Observer(const EnvironmentSpec& spec, const ObservationOptions& options,
-                   double decision_s)
-    : decision_s_(decision_s), phase_(options.phase) {
-  const int base =
-      std::min(kCompetitionObservations, static_cast<int>(spec.observation_names.size()));
+                   double decision_s, std::optional<RobustFeatures> robust)
+    : decision_s_(decision_s), phase_(options.phase), robust_(std::move(robust)) {
+  const int base = std::min(robust_ ? 0 : kCompetitionObservations,
+                            static_cast<int>(spec.observation_names.size()));
+  if (robust_) names_ = robust_->names();
   const auto take = [this](const std::string& name, int value, int origin = -1) {
     names_.push_back(name);
     taken_.push_back({value, origin});
   };
 
-  const int pelvis_x = options.centre || options.derived ? find(spec, "pelvis_tx") : -1;
+  const int pelvis_x =
+      (options.centre && !robust_) || options.derived ? find(spec, "pelvis_tx") : -1;
   for (int i = 0; i < base; ++i) {
     const std::string& name = spec.observation_names[static_cast<std::size_t>(i)];
     take(name, i, options.centre && is_position_along_ground(name) ? pelvis_x : -1);
@@ -88,6 +91,10 @@ void Observer::observe(const Eigen::VectorXd& observation, double phase,
                        Eigen::VectorXd& features) {
   features.resize(static_cast<Eigen::Index>(names_.size()));
   Eigen::Index i = 0;
+  if (robust_) {
+    robust_->write(observation, features.data());
+    i = static_cast<Eigen::Index>(robust_->names().size());
+  }
   for (const auto& [value, origin] : taken_)
     features[i++] = observation[value] - (origin < 0 ? 0 : observation[origin]);
   for (Eigen::Index k = 0; k < last_rates_.size(); ++k) {
@@ -102,12 +109,15 @@ void Observer::observe(const Eigen::VectorXd& observation, double phase,
 }
 
 void Observer::start(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features) {
+  if (robust_) robust_->start();
+  watch(observation);
   for (Eigen::Index k = 0; k < last_rates_.size(); ++k)
     last_rates_[k] = observation[rates_[static_cast<std::size_t>(k)]];
   observe(observation, phase, features);
 }
 
 void Observer::follow(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features) {
+  watch(observation);
   observe(observation, phase, features);
 }
 

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "train/environment.h"
+#include "train/robust_features.h"
 
 namespace stride {
 
 struct ObservationOptions {
+  bool robust = false;      // RobustFeatures instead of the competition's 41
   bool centre = true;       // x positions are measured from the pelvis
   bool derived = false;     // the 71 features that the paper adds to the competition's 41
   bool activations = true;  // of the runner's own muscles
@@ -26,12 +29,18 @@ class Observer {
  public:
   /// `decision_s`: simulated time between two observations. Throws Error naming what the
   /// environment does not observe.
-  Observer(const EnvironmentSpec& spec, const ObservationOptions& options, double decision_s);
+  /// `robust`: makes those features; needed by the option of that name.
+  Observer(const EnvironmentSpec& spec, const ObservationOptions& options, double decision_s,
+           std::optional<RobustFeatures> robust = std::nullopt);
 
   const std::vector<std::string>& names() const { return names_; }
 
   /// The first observation of an episode.
   void start(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features);
+  /// Those between two decisions.
+  void watch(const Eigen::VectorXd& observation) {
+    if (robust_) robust_->watch(observation);
+  }
   /// Each following one, a decision later.
   void follow(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features);
 
@@ -44,6 +53,7 @@ class Observer {
 
   double decision_s_;
   bool phase_;
+  std::optional<RobustFeatures> robust_;
   std::vector<std::string> names_;
   std::vector<Difference> taken_;  // features that are elements, or differences of two
   std::vector<int> rates_;         // velocities whose change is a feature

@@ -10,6 +10,7 @@
 #include <set>
 #include <variant>
 
+#include "calibrate/model.h"
 #include "extract/error.h"
 #include "extract/toml.h"
 
@@ -34,6 +35,12 @@ const double kBelowOne = std::nextafter(1.0, 0.0);  // the end of [0, 1)
 std::vector<Field> fields(TrainOptions& o) {
   const std::vector<std::string> activations{"relu", "elu", "tanh"};
   return {
+      {"run.learner",
+       "what learns: ddpg, the paper's, or ppo",
+       &o.run.learner,
+       -kInf,
+       kInf,
+       {"ddpg", "ppo"}},
       {"run.seed", "of every random number", &o.run.seed, 0},
       {"run.decisions", "of all environments together; then the run ends", &o.run.decisions, 1},
       {"run.threads", "0: one a core; the curve does not depend on it", &o.run.threads, 0, 1024},
@@ -74,12 +81,26 @@ std::vector<Field> fields(TrainOptions& o) {
       {"environment.difficulty", "0: no obstacles; 1: obstacles; 2: and weaker muscles",
        &o.environment.difficulty, 0, 2},
       {"environment.max_obstacles", "at difficulty 1 and 2", &o.environment.max_obstacles, 0, 20},
+      {"environment.flat_share", "of training episodes have no obstacles",
+       &o.environment.flat_share, 0, 1},
+      {"environment.few_share", "of training episodes have at most three obstacles",
+       &o.environment.few_share, 0, 1},
+      {"environment.late_positions", "under nips2017: observed bodies are late now and then",
+       &o.environment.late_positions},
       {"environment.accuracy", "of the integration", &o.environment.accuracy, 1e-12, 1},
+      {"environment.training_accuracy", "of the integration in training; 0: the same",
+       &o.environment.training_accuracy, 0, 0.1},
       {"environment.reference", "file in the run folder on which episodes may start; empty: none",
        &o.environment.reference},
       {"environment.reference_share", "of training episodes start on it",
        &o.environment.reference_share, 0, 1},
+      {"environment.reference_by_slot", "in that share of the environments every episode does",
+       &o.environment.reference_by_slot},
 
+      {"observation.robust",
+       "instead of the 41 what holds under the competition's rules: feet from joint angles, "
+       "obstacles remembered",
+       &o.observation.robust},
       {"observation.centre", "x positions from the pelvis", &o.observation.centre},
       {"observation.derived", "the 71 features added to the competition's 41",
        &o.observation.derived},
@@ -147,6 +168,33 @@ std::vector<Field> fields(TrainOptions& o) {
 
       {"replay.capacity", "decisions kept", &o.replay.capacity, 1},
       {"replay.mirror", "half of all samples reflected in the sagittal plane", &o.replay.mirror},
+
+      {"ppo.actor_hidden", "neurons of each layer", &o.ppo.actor_hidden, 1, 4096},
+      {"ppo.critic_hidden", "neurons of each layer", &o.ppo.critic_hidden, 1, 4096},
+      {"ppo.activation", "", &o.ppo.activation, -kInf, kInf, activations},
+      {"ppo.gamma", "discount a decision; shaping uses the same", &o.ppo.gamma, 0, kBelowOne},
+      {"ppo.lambda", "decay of the advantage's horizon a decision", &o.ppo.lambda, 0, 1},
+      {"ppo.horizon", "decisions of each environment between two updates", &o.ppo.horizon, 1,
+       10000},
+      {"ppo.epochs", "passes over them", &o.ppo.epochs, 1, 1000},
+      {"ppo.minibatch", "decisions in a step of Adam", &o.ppo.minibatch, 2, 1e6},
+      {"ppo.clip", "of the ratio of probabilities", &o.ppo.clip, 0, 10},
+      {"ppo.rate", "Adam's step size at first", &o.ppo.rate, 0, 1},
+      {"ppo.kl", "divergence of an update to which the actor's rate is steered, at first",
+       &o.ppo.kl, 1e-6, 10},
+      {"ppo.final_kl", "after decay_decisions", &o.ppo.final_kl, 1e-6, 10},
+      {"ppo.entropy", "weight of the entropy at first", &o.ppo.entropy, 0, 10},
+      {"ppo.final_entropy", "after decay_decisions", &o.ppo.final_entropy, 0, 10},
+      {"ppo.decay_decisions", "over which kl, entropy and the critic's rate anneal, linearly",
+       &o.ppo.decay_decisions, 1},
+      {"ppo.final_rate", "share of the critic's rate that is left after decay_decisions",
+       &o.ppo.final_rate, 0, 1},
+      {"ppo.gradient_norm_limit", "0: none", &o.ppo.gradient_norm_limit, 0},
+      {"ppo.alive_per_s", "reward of each simulated second in training at first",
+       &o.ppo.alive_per_s},
+      {"ppo.final_alive_per_s", "after alive_decisions", &o.ppo.final_alive_per_s},
+      {"ppo.alive_decisions", "over which it falls, linearly", &o.ppo.alive_decisions, 1},
+      {"ppo.mirror", "each pass sees each decision or its mirror image", &o.ppo.mirror},
   };
 }
 
@@ -245,6 +293,10 @@ void check_field(const Field& field) {
 }
 
 }  // namespace
+
+fs::path model_file(const EnvironmentOptions& options) {
+  return options.model.empty() ? default_model_file() : fs::path(options.model);
+}
 
 void TrainOptions::check() const {
   TrainOptions copy = *this;

@@ -10,10 +10,12 @@
 #include "train/agent.h"
 #include "train/explorer.h"
 #include "train/observation.h"
+#include "train/ppo/options.h"
 
 namespace stride {
 
 struct RunOptions {
+  std::string learner = "ddpg";  // or ppo
   std::int64_t seed = 1;
   std::int64_t decisions = 1'000'000;  // of all environments together, then the run ends
   int threads = 0;                     // 0: one a core; the curve does not depend on it
@@ -34,9 +36,13 @@ struct EnvironmentOptions {
   std::string model;              // .osim; empty: the model of Learning to Run
   int difficulty = 0;
   int max_obstacles = 3;
-  double accuracy = 1e-3;        // of the integration
-  std::string reference;         // calibrated run, as it was copied into the run folder
-  double reference_share = 0.7;  // of training episodes start on it
+  double flat_share = 0, few_share = 0;  // of training episodes: no obstacles, three at most
+  bool late_positions = true;            // under nips2017, as OpenSim observes bodies
+  double accuracy = 1e-3;                // of the integration
+  double training_accuracy = 0;          // of training episodes; 0: the same
+  std::string reference;                 // calibrated run, as it was copied into the run folder
+  double reference_share = 0.7;          // of training episodes start on it
+  bool reference_by_slot = false;        // in that share of the environments all episodes do
 };
 
 struct RewardOptions {
@@ -69,11 +75,15 @@ struct TrainOptions {
   AgentOptions agent = {};
   ExplorationOptions exploration = {};
   ReplayOptions replay = {};
+  ppo::Options ppo = {};
 
   /// Throws Error naming the first option that is out of its range: `agent.gamma = 1.2: must be in
   /// [0, 1)`.
   void check() const;
 };
+
+/// The .osim file of the runner.
+std::filesystem::path model_file(const EnvironmentOptions& options);
 
 /// Changes the options that a TOML file names. Throws Error naming file, key and cure where a key
 /// is not known or its value is of another kind.

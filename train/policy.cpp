@@ -76,7 +76,10 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, Environment& environmen
       episode.fell = step.terminated;
       episode.failed = step.failed;
       over = step.terminated || step.truncated;
-      if (i + 1 == action_repeat || over) observer.follow(step.observation, phase(), features);
+      if (i + 1 == action_repeat || over)
+        observer.follow(step.observation, phase(), features);
+      else
+        observer.watch(step.observation);
     }
   }
   episode.distance_m = environment.distance_m();

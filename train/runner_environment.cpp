@@ -78,8 +78,10 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   reward_ = {};
   report_ = {};
   scene_ = draw_scene(seed, options_.difficulty, options_.max_obstacles);
-  arrange(scene_, options_.rules, options_.max_obstacles, *engine_);
   std::mt19937_64 random(seed);
+  thin_out(random);
+  arrange(scene_, options_.rules, options_.max_obstacles, *engine_);
+  late_positions_.start(seed);
   if (options_.reference && uniform(random) < options_.reference_share)
     start_on_reference(random);
   else
@@ -88,6 +90,17 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   kinematics_ = engine_->kinematics();
   observe();
   return step_.observation;
+}
+
+void RunnerEnvironment::thin_out(std::mt19937_64& random) {
+  if (options_.flat_share + options_.few_share == 0) return;
+  constexpr std::size_t kFew = 3;
+  const double kind = uniform(random), count = uniform(random);
+  if (kind < options_.flat_share)
+    scene_.obstacles.clear();
+  else if (kind < options_.flat_share + options_.few_share)
+    scene_.obstacles.resize(
+        std::min(scene_.obstacles.size(), static_cast<std::size_t>(count * (kFew + 1))));
 }
 
 void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
@@ -111,6 +124,8 @@ void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
 void RunnerEnvironment::observe() {
   sensors_.read(engine_->state(), kinematics_, scene_, options_.rules, options_.max_obstacles,
                 step_.observation.data());
+  if (options_.late_positions && options_.rules == Rules::nips2017)
+    late_positions_.apply(step_.observation);
 }
 
 const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {

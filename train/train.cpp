@@ -14,6 +14,7 @@
 #include "train/checkpoint.h"
 #include "train/crew.h"
 #include "train/curve.h"
+#include "train/ppo/train.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -373,6 +374,9 @@ TrainSummary train(const fs::path& run, const EnvironmentFactory& make_environme
   const FolderLock lock(run);
   remove_unfinished_files(run);
   remove_unfinished_files(run / "replay");
+  if (options.run.learner == "ppo")
+    return ppo::train(options, potential ? &*potential : nullptr, run, make_environment, stop,
+                      messages);
   const auto with = options.run.precision == "float" ? train_with<float> : train_with<double>;
   return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages);
 }

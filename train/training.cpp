@@ -22,7 +22,11 @@ Observer make_observer(const TrainOptions& options, const Potential* potential,
   ObservationOptions observation = options.observation;
   if (potential == nullptr || potential->index == PotentialIndex::nearest)
     observation.phase = false;  // nothing depends on it
-  return Observer(spec, observation, options.run.action_repeat * spec.step_s);
+  std::optional<RobustFeatures> robust;
+  if (observation.robust)
+    robust.emplace(load_osim(model_file(options.environment)),
+                   rules_named(options.environment.rules));
+  return Observer(spec, observation, options.run.action_repeat * spec.step_s, std::move(robust));
 }
 
 template <typename Scalar>
