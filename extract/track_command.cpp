@@ -6,13 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "extract/annotation/labelled_clip.h"
 #include "extract/commands.h"
-#include "extract/error.h"
-#include "extract/export.h"
-#include "extract/marked.h"
-#include "extract/overlay.h"
-#include "extract/pose.h"
-#include "extract/track_score.h"
+#include "extract/import/export.h"
+#include "extract/io/error.h"
+#include "extract/pose/pose_points.h"
+#include "extract/tracking/track_score.h"
+#include "extract/video/overlay.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -22,9 +22,9 @@ struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
   double slow_motion = 0;  // 0: as the keypoints say
   bool repair_legs = true;
-  TrackOptions track;
-  ImportOptions import;
-  PoseOptions pose;
+  tracking::TrackOptions track;
+  imports::ImportOptions import;
+  pose::PoseOptions pose;
 };
 
 /// A line on stderr that is rewritten, only where somebody watches.
@@ -38,39 +38,39 @@ bool is_detected(const Request& request) {
 }
 
 /// The points of another program or of a pose model on the frames of the video.
-Marked detected(const Request& request) {
+tracking::LabelledClip detected(const Request& request) {
   require(request.import_from.empty() || request.pose.model.empty(),
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
   const double slow_motion = request.slow_motion > 0 ? request.slow_motion : 1;
-  const VideoTimes times = video_times(request.video, slow_motion);
-  ImportOptions options = request.import;
+  const video::VideoTimes times = video::video_times(request.video, slow_motion);
+  imports::ImportOptions options = request.import;
   if (options.rate_hz == 0) options.rate_hz = times.info.rate_hz;
-  const Detections detections = request.pose.model.empty()
-                                    ? import_points(request.import_from, options)
-                                    : pose_points(request.video, request.pose, options);
+  const imports::Detections detections =
+      request.pose.model.empty() ? imports::import_points(request.import_from, options)
+                                 : pose::pose_points(request.video, request.pose, options);
   fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n",
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
              detections.people.size());
-  return points_on(request.video, detections, times, slow_motion, request.repair_legs);
+  return tracking::points_on(request.video, detections, times, slow_motion, request.repair_legs);
 }
 
-Marked clicked(const Request& request) {
+tracking::LabelledClip clicked(const Request& request) {
   const fs::path file =
       request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  return clicks_on(request.video, file, request.slow_motion);
+  return tracking::clicks_on(request.video, file, request.slow_motion);
 }
 
-void report(const Tracked& tracked) {
-  const GaitKernel& legs = tracked.summary.prior.legs;
+void report(const tracking::Tracked& tracked) {
+  const gaussian_process::GaitKernel& legs = tracked.summary.prior.legs;
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
              "stride period {:.3f} s, noise of the marks {:.1f} px, flow believed on {:.0f} % of "
              "the unmarked points\n",
-             tracked.summary.marked_frames, t.frames.front().frame, t.frames.back().frame,
-             legs.period_s, legs.noise_px, 100 * tracked.summary.believed);
+             tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
+             legs.period_s, legs.noise_px, 100 * tracked.summary.inlier);
   std::vector<double> residuals;
   for (const TrajectoryFrame& frame : t.frames)
     if (frame.camera_px.allFinite()) residuals.push_back(frame.camera_residual_px);
@@ -87,25 +87,27 @@ void report(const Tracked& tracked) {
 
 void run(Request request) {
   if (!request.score.empty()) {
-    fmt::print("{}", table_of(score_tracking(request.video, request.score)));
+    fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
     return;
   }
-  const Marked marked = is_detected(request) ? detected(request) : clicked(request);
+  const tracking::LabelledClip labelled =
+      is_detected(request) ? detected(request) : clicked(request);
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
-  WatchOptions watching;
+  video::DecodeOptions watching;
   watching.progress = show_progress;
-  watching.sights = request.track.flow;
-  const Tracked tracked = track(request.video, marked, request.track, watching);
+  watching.crops = request.track.flow;
+  const tracking::Tracked tracked =
+      tracking::track(request.video, labelled, request.track, watching);
   report(tracked);
 
   if (!request.overlay.empty()) {
-    write_overlay(request.video, tracked.trajectory, request.overlay);
+    video::write_overlay(request.video, tracked.trajectory, request.overlay);
     fmt::print("{}\n", request.overlay.string());
   }
   if (!request.export_to.empty()) {
-    export_points(tracked.trajectory, request.export_to);
+    imports::export_points(tracked.trajectory, request.export_to);
     fmt::print("{}\n", request.export_to.string());
     if (request.out.empty()) return;
   }
@@ -127,8 +129,8 @@ void add_track_command(CLI::App& app) {
                      "clicks (default: NAME.keypoints.json beside the video)");
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
-  add_import_options(command, request->import);
-  add_pose_options(command, request->pose);
+  imports::add_import_options(command, request->import);
+  pose::add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_option("-o,--out", request->out,

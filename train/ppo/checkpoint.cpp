@@ -2,10 +2,10 @@
 
 #include <sstream>
 
-#include "extract/error.h"
-#include "train/checkpoint.h"
+#include "extract/io/error.h"
+#include "train/network/safetensors.h"
 #include "train/ppo/training.h"
-#include "train/safetensors.h"
+#include "train/training/checkpoint.h"
 
 namespace stride::ppo {
 namespace fs = std::filesystem;
@@ -30,15 +30,16 @@ Random random_from(const std::string& text, const std::string& file) {
   return random;
 }
 
-void put(Tensors& tensors, const std::string& name, const Mlp<float>& network,
-         const Adam<float>& adam) {
+void put(network::Tensors& tensors, const std::string& name, const network::Mlp<float>& network,
+         const network::Adam<float>& adam) {
   tensors.put(name, network.parameters());
   tensors.put(name + ".adam.step", adam.step);
   tensors.put(name + ".adam.m", adam.m);
   tensors.put(name + ".adam.v", adam.v);
 }
 
-void get(const Tensors& tensors, const std::string& name, Mlp<float>& network, Adam<float>& adam) {
+void get(const network::Tensors& tensors, const std::string& name, network::Mlp<float>& network,
+         network::Adam<float>& adam) {
   tensors.get(name, network.parameters());
   adam.step = tensors.integer(name + ".adam.step");
   if (adam.step == 0) return;
@@ -48,7 +49,7 @@ void get(const Tensors& tensors, const std::string& name, Mlp<float>& network, A
   tensors.get(name + ".adam.v", adam.v);
 }
 
-void put(Tensors& tensors, const std::string& name, const SlotState& state) {
+void put(network::Tensors& tensors, const std::string& name, const SlotState& state) {
   tensors.put_bytes(name + ".random", to_text(state.random));
   tensors.put(name + ".running", std::int64_t{state.running});
   tensors.put(name + ".seed", static_cast<std::int64_t>(state.episode_seed));
@@ -58,13 +59,13 @@ void put(Tensors& tensors, const std::string& name, const SlotState& state) {
   tensors.put(name + ".simulated_s", Eigen::VectorXd{{state.simulated_s}});
 }
 
-double number(const Tensors& tensors, const std::string& name) {
+double number(const network::Tensors& tensors, const std::string& name) {
   Eigen::VectorXd value(1);
   tensors.get(name, value);
   return value[0];
 }
 
-SlotState get(const Tensors& tensors, const std::string& name, std::size_t actions) {
+SlotState get(const network::Tensors& tensors, const std::string& name, std::size_t actions) {
   SlotState state;
   state.random = random_from(tensors.bytes(name + ".random"), tensors.file);
   state.running = tensors.integer(name + ".running") != 0;
@@ -85,29 +86,31 @@ SlotState get(const Tensors& tensors, const std::string& name, std::size_t actio
 
 /// The counters, by name.
 template <typename Visit>
-void visit_counters(Progress& progress, const Visit& visit) {
+void visit_counters(training::Progress& progress, const Visit& visit) {
   visit("decisions", progress.decisions), visit("updates", progress.updates);
   visit("episodes", progress.episodes), visit("falls", progress.falls);
   visit("failures", progress.failures), visit("rows", progress.rows);
+  visit("last_row_decisions", progress.last_row_decisions);
   visit("next_evaluation", progress.next_evaluation);
 }
 template <typename Visit>
-void visit_sums(Progress& progress, const Visit& visit) {
-  Progress::Sums& sums = progress.sums;
+void visit_sums(training::Progress& progress, Sums& sums, const Visit& visit) {
   visit("best_distance_m", progress.best_distance_m);
-  visit("sums.episodes", sums.episodes), visit("sums.distance_m", sums.distance_m);
-  visit("sums.reward", sums.reward), visit("sums.batches", sums.batches);
-  visit("sums.kl", sums.kl), visit("sums.entropy", sums.entropy);
-  visit("sums.value_loss", sums.value_loss);
+  visit("sums.episodes", progress.sums.episodes);
+  visit("sums.distance_m", progress.sums.distance_m);
+  visit("sums.reward", progress.sums.reward);
+  visit("sums.batches", sums.batches), visit("sums.kl", sums.kl);
+  visit("sums.entropy", sums.entropy), visit("sums.value_loss", sums.value_loss);
   visit("sums.explained_variance", sums.explained_variance);
 }
 
 }  // namespace
 
 void save_checkpoint(const Training& training, const fs::path& run) {
-  Tensors tensors;
+  network::Tensors tensors;
   tensors.metadata = {{"format", "stride ppo checkpoint"}, {"version", "1"}};
-  Progress progress = training.progress;
+  training::Progress progress = training.progress;
+  Sums sums = training.sums;
   visit_counters(progress, [&](const char* name, std::int64_t value) { tensors.put(name, value); });
   visit_sums(progress,
              [&](const char* name, double value) { tensors.put(name, Eigen::VectorXd{{value}}); });
@@ -117,23 +120,23 @@ void save_checkpoint(const Training& training, const fs::path& run) {
   put(tensors, "critic", critic.network, critic.adam);
   tensors.put("critic.scale", Eigen::VectorXd{{critic.shift, critic.scale, critic.batches}});
   tensors.put("actor.rate", Eigen::VectorXd{{training.learner.rate()}});
-  const Normaliser::State& normaliser = training.normaliser.state();
+  const network::Normaliser::State& normaliser = training.normaliser.state();
   tensors.put("normaliser.count", static_cast<std::int64_t>(normaliser.count));
   tensors.put("normaliser.mean", normaliser.mean);
   tensors.put("normaliser.squares", normaliser.squares);
   for (std::size_t i = 0; i < training.slots.size(); ++i)
     put(tensors, fmt::format("slot{}", i), training.slots[i].state());
-  save(tensors, checkpoint_file(run));
+  save(tensors, training::checkpoint_file(run));
 }
 
 void load_checkpoint(Training& training, const fs::path& run) {
-  const Tensors tensors = load_tensors(checkpoint_file(run));
+  const network::Tensors tensors = load_tensors(training::checkpoint_file(run));
   require(tensors.meta("format") == "stride ppo checkpoint" && tensors.meta("version") == "1",
           "{}: is a {} of version {}, a stride ppo checkpoint of version 1 is needed", tensors.file,
           tensors.meta("format"), tensors.meta("version"));
   visit_counters(training.progress,
                  [&](const char* name, std::int64_t& value) { value = tensors.integer(name); });
-  visit_sums(training.progress,
+  visit_sums(training.progress, training.sums,
              [&](const char* name, double& value) { value = number(tensors, name); });
   training.random = random_from(tensors.bytes("random"), tensors.file);
   Learner& learner = training.learner;
@@ -145,7 +148,7 @@ void load_checkpoint(Training& training, const fs::path& run) {
   learner.critic().scale = scale[1];
   learner.critic().batches = scale[2];
   learner.rate() = number(tensors, "actor.rate");
-  Normaliser::State normaliser = training.normaliser.state();
+  network::Normaliser::State normaliser = training.normaliser.state();
   normaliser.count = static_cast<double>(tensors.integer("normaliser.count"));
   tensors.get("normaliser.mean", normaliser.mean);
   tensors.get("normaliser.squares", normaliser.squares);

@@ -13,15 +13,15 @@ constexpr int kParts = 2;
 constexpr double kSlowestRate = 1e-6, kFastestRate = 3e-3;
 constexpr float kLargestLogRatio = 10;  // e¹⁰: far beyond the clip
 
-MlpShape shape(const std::vector<int>& hidden, const std::string& activations, std::size_t inputs,
-               std::size_t outputs) {
+network::MlpShape shape(const std::vector<int>& hidden, const std::string& activations,
+                        std::size_t inputs, std::size_t outputs) {
   return {.inputs = static_cast<int>(inputs),
           .outputs = static_cast<int>(outputs),
           .hidden = hidden,
-          .activation = activation(activations)};
+          .activation = network::activation(activations)};
 }
 
-Adam<float> adam(const Options& options) {
+network::Adam<float> adam(const Options& options) {
   return {.options = {.epsilon = 1e-5, .gradient_norm_limit = options.gradient_norm_limit}};
 }
 
@@ -29,7 +29,7 @@ Adam<float> adam(const Options& options) {
 double annealed(double first, double last, double age) { return first + age * (last - first); }
 
 /// The second half of the columns becomes the mirror image of the first.
-void append_mirrored(const Mirror& mirror, Eigen::Index columns, Matrix& matrix) {
+void append_mirrored(const environment::Mirror& mirror, Eigen::Index columns, Matrix& matrix) {
   matrix.conservativeResize(Eigen::NoChange, 2 * columns);
   for (Eigen::Index i = 0; i < columns; ++i) mirror.apply(matrix.col(i), matrix.col(columns + i));
 }
@@ -38,7 +38,7 @@ void append_mirrored(const Mirror& mirror, Eigen::Index columns, Matrix& matrix)
 struct Part {
   Matrix states, actions, logits;
   Vector log_probabilities, advantages, targets;  // targets of the critic, scaled
-  Mlp<float>::Workspace actor_work, critic_work;
+  network::Mlp<float>::Workspace actor_work, critic_work;
   Vector actor_gradient, critic_gradient;
   double kl = 0, entropy = 0, value_loss = 0;  // sums over the columns
 
@@ -60,7 +60,8 @@ struct Part {
 
   /// The gradient of −mean(min(r A, clip(r) A)) − weight · mean(entropy), r the ratio of the
   /// action's probabilities now and when it was drawn; `count` columns are in the mean.
-  void descend_actor(const Mlp<float>& actor, float clip, float entropy_weight, int count) {
+  void descend_actor(const network::Mlp<float>& actor, float clip, float entropy_weight,
+                     int count) {
     const Matrix& z = actor.forward(states, actor_work);
     const Eigen::ArrayXf ratio = (log_probability(z, actions) - log_probabilities)
                                      .array()
@@ -80,7 +81,7 @@ struct Part {
   }
 
   /// The gradient of mean(½ (net − target)²).
-  void descend_critic(const Mlp<float>& critic, int count) {
+  void descend_critic(const network::Mlp<float>& critic, int count) {
     const Matrix error = critic.forward(states, critic_work) - targets.transpose();
     value_loss = 0.5 * static_cast<double>(error.squaredNorm());
     critic.backward(states, error / static_cast<float>(count), critic_work, &critic_gradient,
@@ -99,15 +100,15 @@ double explained_variance(const RolloutBatch& batch) {
 
 }  // namespace
 
-Learner::Learner(const Options& options, const Mirror& features, const Mirror& actions,
-                 Random& weights)
+Learner::Learner(const Options& options, const environment::Mirror& features,
+                 const environment::Mirror& actions, Random& weights)
     : options_(options),
       feature_mirror_(features),
       action_mirror_(actions),
       actor_(shape(options.actor_hidden, options.activation, features.source.size(),
                    actions.source.size())),
       actor_adam_(adam(options)),
-      critic_{.network = Mlp<float>(
+      critic_{.network = network::Mlp<float>(
                   shape(options.critic_hidden, options.activation, features.source.size(), 1)),
               .adam = adam(options)},
       rate_(options.rate) {
@@ -115,20 +116,20 @@ Learner::Learner(const Options& options, const Mirror& features, const Mirror& a
   critic_.network.initialise(weights, 0.1);
 }
 
-void Learner::assess(Crew& crew, RolloutBatch& batch) {
+void Learner::assess(training::ThreadPool& threads, RolloutBatch& batch) {
   const Eigen::Index n = batch.decisions();
   batch.log_probabilities = log_probability(batch.logits, batch.actions);
   batch.values.resize(batch.states.cols());
-  crew.run(kParts, [&](int part) {
+  threads.run(kParts, [&](int part) {
     const Eigen::Index begin = batch.states.cols() * part / kParts;
     const Eigen::Index end = batch.states.cols() * (part + 1) / kParts;
-    Mlp<float>::Workspace work;
+    network::Mlp<float>::Workspace work;
     batch.values.segment(begin, end - begin) =
         critic_.values(batch.states.middleCols(begin, end - begin), work);
   });
   batch.truncated_values.resize(batch.truncated_states.cols());
   if (batch.truncated_states.cols() > 0) {
-    Mlp<float>::Workspace work;
+    network::Mlp<float>::Workspace work;
     batch.truncated_values = critic_.values(batch.truncated_states, work);
   }
   estimate_advantages(options_.gamma, options_.lambda, batch);
@@ -142,9 +143,9 @@ void Learner::assess(Crew& crew, RolloutBatch& batch) {
   append_mirrored(feature_mirror_, n, batch.states);
   append_mirrored(action_mirror_, n, batch.actions);
   batch.logits.conservativeResize(Eigen::NoChange, 2 * n);
-  crew.run(kParts, [&](int part) {
+  threads.run(kParts, [&](int part) {
     const Eigen::Index begin = n + n * part / kParts, end = n + n * (part + 1) / kParts;
-    Mlp<float>::Workspace work;
+    network::Mlp<float>::Workspace work;
     batch.logits.middleCols(begin, end - begin) =
         actor_.forward(batch.states.middleCols(begin, end - begin), work);
   });
@@ -153,7 +154,8 @@ void Learner::assess(Crew& crew, RolloutBatch& batch) {
       log_probability(batch.logits.rightCols(n), batch.actions.rightCols(n));
 }
 
-UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& random, Crew& crew) {
+UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& random,
+                             training::ThreadPool& threads) {
   const int n = batch.decisions(), minibatch = std::min(options_.minibatch, n);
   const auto clip = static_cast<float>(options_.clip);
   const auto weight = static_cast<float>(annealed(options_.entropy, options_.final_entropy, age));
@@ -173,7 +175,7 @@ UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& rand
     report = {.steps = report.steps};
     int seen = 0, steps = 0;
     for (int begin = 0; begin + minibatch <= n; begin += minibatch, ++steps) {
-      crew.run(kParts, [&](int i) {
+      threads.run(kParts, [&](int i) {
         const int from = begin + minibatch * i / kParts, to = begin + minibatch * (i + 1) / kParts;
         Part& part = parts[static_cast<std::size_t>(i)];
         part.gather(batch, targets, columns.data() + from, to - from);

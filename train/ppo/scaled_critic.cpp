@@ -12,7 +12,7 @@ constexpr double kSmallestScale = 1e-3;
 }  // namespace
 
 Vector ScaledCritic::values(const Eigen::Ref<const Matrix>& states,
-                            Mlp<float>::Workspace& work) const {
+                            network::Mlp<float>::Workspace& work) const {
   const Matrix& out = network.forward(states, work);
   return (out.row(0).array() * static_cast<float>(scale) + static_cast<float>(shift))
       .matrix()

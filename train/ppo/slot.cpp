@@ -5,8 +5,8 @@
 
 namespace stride::ppo {
 
-Slot::Slot(std::unique_ptr<Environment> environment, Observer observer, const Setup& setup,
-           std::uint64_t seed)
+Slot::Slot(std::unique_ptr<environment::Environment> environment, environment::Observer observer,
+           const Setup& setup, std::uint64_t seed)
     : environment_(std::move(environment)), observer_(std::move(observer)), setup_(setup) {
   state_.random.seed(seed);
   applied_.setZero(static_cast<Eigen::Index>(environment_->spec().action_names.size()));
@@ -41,11 +41,11 @@ const Eigen::VectorXd& Slot::features() {
 
 Slot::Outcome Slot::repeat(double alive_per_s) {
   const double step_s = environment_->spec().step_s, phi = potential();
-  EpisodeSummary& episode = state_.episode;
+  network::EpisodeSummary& episode = state_.episode;
   Outcome outcome;
   double reward = 0;
   for (int i = 0; i < setup_.action_repeat && outcome.end == End::none; ++i) {
-    const Step& step = environment_->step(applied_);
+    const environment::Step& step = environment_->step(applied_);
     state_.simulated_s += step_s;
     episode.reward += step.reward;
     reward += step.reward + alive_per_s * step_s;
@@ -54,8 +54,6 @@ Slot::Outcome Slot::repeat(double alive_per_s) {
     episode.failed = step.failed;
     if (outcome.end != End::none || i + 1 == setup_.action_repeat)
       observer_.follow(step.observation, phase(), features_);
-    else
-      observer_.watch(step.observation);
   }
   episode.fell = outcome.end == End::terminated;
   if (episode.fell) reward += setup_.fall_reward;
@@ -81,7 +79,7 @@ Slot::Outcome Slot::decide(const Eigen::Ref<const Vector>& logits, double alive_
   return outcome;
 }
 
-std::vector<EpisodeSummary> Slot::take_finished() { return std::exchange(finished_, {}); }
+std::vector<network::EpisodeSummary> Slot::take_finished() { return std::exchange(finished_, {}); }
 
 void Slot::restore(const SlotState& state) {
   state_ = state;

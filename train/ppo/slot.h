@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "shaping/potential.h"
-#include "train/environment.h"
-#include "train/observation.h"
-#include "train/policy.h"
+#include "train/environment/environment.h"
+#include "train/environment/observation.h"
+#include "train/network/policy.h"
 #include "train/ppo/rollout_batch.h"
 
 namespace stride::ppo {
@@ -18,7 +18,7 @@ struct SlotState {
   bool running = false;
   std::uint64_t episode_seed = 0;
   std::vector<std::uint8_t> actions;  // of the episode so far, one after the other
-  EpisodeSummary episode;
+  network::EpisodeSummary episode;
   double simulated_s = 0;  // since the run began
 };
 
@@ -32,8 +32,8 @@ class Slot {
     double fall_reward = 0;
   };
 
-  Slot(std::unique_ptr<Environment> environment, Observer observer, const Setup& setup,
-       std::uint64_t seed);
+  Slot(std::unique_ptr<environment::Environment> environment, environment::Observer observer,
+       const Setup& setup, std::uint64_t seed);
 
   /// Features of the current state; starts an episode where none is running.
   const Eigen::VectorXd& features();
@@ -48,7 +48,7 @@ class Slot {
                  Eigen::Ref<Vector> action);
   void begin_next();
 
-  std::vector<EpisodeSummary> take_finished();
+  std::vector<network::EpisodeSummary> take_finished();
 
   const SlotState& state() const { return state_; }
   void restore(const SlotState& state);
@@ -59,11 +59,11 @@ class Slot {
   double phase() const;
   double potential() const;
 
-  std::unique_ptr<Environment> environment_;
-  Observer observer_;
+  std::unique_ptr<environment::Environment> environment_;
+  environment::Observer observer_;
   Setup setup_;
   SlotState state_;
-  std::vector<EpisodeSummary> finished_;
+  std::vector<network::EpisodeSummary> finished_;
   Eigen::VectorXd features_, applied_;
 };
 

@@ -13,22 +13,23 @@ constexpr int kGroup = 8;
 
 }  // namespace
 
-Training start_training(const TrainOptions& options, const Potential* potential,
-                        const EnvironmentFactory& make_environment) {
-  const std::unique_ptr<Environment> example = make_environment(-1);
-  const EnvironmentSpec& spec = example->spec();
-  const Observer observer = make_observer(options, potential, spec);
-  const Mirror features = mirror_by_name(observer.names());
+Training start_training(const training::TrainOptions& options, const Potential* potential,
+                        const training::EnvironmentFactory& make_environment) {
+  const std::unique_ptr<environment::Environment> example = make_environment(-1);
+  const environment::EnvironmentSpec& spec = example->spec();
+  const environment::Observer observer = training::make_observer(options, potential, spec);
+  const environment::Mirror features = environment::mirror_by_name(observer.names());
   const auto seed = static_cast<std::uint64_t>(options.run.seed);
   Random weights(stream_seed(seed, kWeights));
-  Training training{
-      .feature_names = observer.names(),
-      .action_names = spec.action_names,
-      .random = Random(stream_seed(seed, kLearner)),
-      .learner = Learner(options.ppo, features, mirror_by_name(spec.action_names), weights),
-      .normaliser = Normaliser(features),
-      .slots = {},
-      .progress = {}};
+  Training training{.feature_names = observer.names(),
+                    .action_names = spec.action_names,
+                    .random = Random(stream_seed(seed, kLearner)),
+                    .learner = Learner(options.ppo, features,
+                                       environment::mirror_by_name(spec.action_names), weights),
+                    .normaliser = network::Normaliser(features),
+                    .slots = {},
+                    .progress = {},
+                    .sums = {}};
   for (int slot = 0; slot < options.run.environments; ++slot)
     training.slots.emplace_back(make_environment(slot), observer,
                                 Slot::Setup{.action_repeat = options.run.action_repeat,
@@ -39,15 +40,17 @@ Training start_training(const TrainOptions& options, const Potential* potential,
   return training;
 }
 
-Policy<float> policy_of(const Training& training) {
-  MlpShape shape = training.learner.actor().shape();
-  shape.output = Activation::sigmoid;
-  Policy<float> policy{.actor = Mlp<float>(shape), .normaliser = training.normaliser};
+network::Policy<float> policy_of(const Training& training) {
+  network::MlpShape shape = training.learner.actor().shape();
+  shape.output = network::Activation::sigmoid;
+  network::Policy<float> policy{.actor = network::Mlp<float>(shape),
+                                .normaliser = training.normaliser};
   policy.actor.parameters() = training.learner.actor().parameters();
   return policy;
 }
 
-void collect(const TrainOptions& options, Training& training, Crew& crew, RolloutBatch& batch) {
+void collect(const training::TrainOptions& options, Training& training,
+             training::ThreadPool& threads, RolloutBatch& batch) {
   const int n = options.run.environments, steps = options.ppo.horizon;
   const auto features = static_cast<Eigen::Index>(training.feature_names.size());
   const auto actions = static_cast<Eigen::Index>(training.action_names.size());
@@ -61,14 +64,14 @@ void collect(const TrainOptions& options, Training& training, Crew& crew, Rollou
   Eigen::MatrixXd observed(features, (steps + 1) * n);             // not normalised
   std::vector<Matrix> after(static_cast<std::size_t>(steps * n));  // s′ where it was truncated
 
-  const ppo::Options& ppo = options.ppo;
+  const Options& ppo = options.ppo;
   const double age =
       std::min(1.0, static_cast<double>(training.progress.decisions) / ppo.alive_decisions);
   const double alive_per_s = ppo.alive_per_s + age * (ppo.final_alive_per_s - ppo.alive_per_s);
 
-  crew.run((n + kGroup - 1) / kGroup, [&](int group) {
+  threads.run((n + kGroup - 1) / kGroup, [&](int group) {
     const int begin = group * kGroup, size = std::min(kGroup, n - begin);
-    Mlp<float>::Workspace work;
+    network::Mlp<float>::Workspace work;
     Matrix states(features, size);
     const auto see = [&](int first) {
       for (int i = 0; i < size; ++i)
@@ -104,10 +107,10 @@ void collect(const TrainOptions& options, Training& training, Crew& crew, Rollou
   for (std::size_t i = 0; i < after.size(); ++i)
     batch.truncated_states.col(static_cast<Eigen::Index>(i)) = after[i];
   for (Eigen::Index i = 0; i < steps * n; ++i) training.normaliser.add(observed.col(i));
-  Progress& progress = training.progress;
+  training::Progress& progress = training.progress;
   progress.decisions += batch.decisions();
   for (Slot& slot : training.slots)
-    for (const EpisodeSummary& episode : slot.take_finished()) {
+    for (const network::EpisodeSummary& episode : slot.take_finished()) {
       ++progress.episodes;
       progress.falls += episode.fell;
       progress.failures += episode.failed;

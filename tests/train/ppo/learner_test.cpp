@@ -5,8 +5,8 @@
 namespace stride::ppo {
 namespace {
 
-const Mirror kFeatures = mirror_by_name({"a_r", "a_l", "b"});
-const Mirror kActions = mirror_by_name({"push_r", "push_l"});
+const environment::Mirror kFeatures = environment::mirror_by_name({"a_r", "a_l", "b"});
+const environment::Mirror kActions = environment::mirror_by_name({"push_r", "push_l"});
 
 Options small() {
   Options options;
@@ -23,7 +23,7 @@ RolloutBatch bandit(const Learner& learner, Random& random) {
   const int n = 256;
   batch.states.resize(3, n + 128);
   for (float& x : batch.states.reshaped()) x = static_cast<float>(normal(random));
-  Mlp<float>::Workspace work;
+  network::Mlp<float>::Workspace work;
   batch.logits = learner.actor().forward(batch.states.leftCols(n), work);
   batch.actions.resize(2, n);
   batch.rewards.resize(n);
@@ -44,16 +44,16 @@ struct Learned {
   UpdateReport report;
 };
 
-Learned learn(int threads) {
+Learned learn(int size) {
   Random weights(1), random(2), chance(3);
   Learner learner(small(), kFeatures, kActions, weights);
-  Crew crew(threads);
+  training::ThreadPool threads(size);
   Learned learned{};
   for (int i = 0; i < 40; ++i) {
     RolloutBatch batch = bandit(learner, chance);
     learned.reward = batch.rewards.mean();
-    learner.assess(crew, batch);
-    learned.report = learner.update(batch, 0, random, crew);
+    learner.assess(threads, batch);
+    learned.report = learner.update(batch, 0, random, threads);
   }
   learned.actor = learner.actor().parameters();
   learned.critic = learner.critic().network.parameters();
@@ -78,10 +78,10 @@ TEST(Learner, MirroredDecisionsAreThoseOfTheMirroredState) {
   const Learner fresh(small(), kFeatures, kActions, weights);
   Learner learner = fresh;
   RolloutBatch batch = bandit(learner, chance);
-  Crew crew(1);
-  learner.assess(crew, batch);
+  training::ThreadPool threads(1);
+  learner.assess(threads, batch);
   ASSERT_EQ(batch.states.cols(), 512);
-  Mlp<float>::Workspace work;
+  network::Mlp<float>::Workspace work;
   const Matrix logits = fresh.actor().forward(batch.states, work);
   EXPECT_LT((logits - batch.logits).cwiseAbs().maxCoeff(), 1e-6f);
   for (int i = 0; i < 256; ++i) {
@@ -94,13 +94,13 @@ TEST(Learner, MirroredDecisionsAreThoseOfTheMirroredState) {
 TEST(ScaledCritic, KeepsItsValuesWhenItsScaleMoves) {
   Random random(4);
   ScaledCritic critic{
-      .network =
-          Mlp<float>({.inputs = 3, .outputs = 1, .hidden = {8}, .activation = Activation::tanh}),
+      .network = network::Mlp<float>(
+          {.inputs = 3, .outputs = 1, .hidden = {8}, .activation = network::Activation::tanh}),
       .adam = {}};
   critic.network.initialise(random, 1);
   Matrix states(3, 50);
   for (float& x : states.reshaped()) x = static_cast<float>(normal(random));
-  Mlp<float>::Workspace work;
+  network::Mlp<float>::Workspace work;
   const Vector before = critic.values(states, work);
   Vector returns(4000);
   for (float& x : returns) x = static_cast<float>(7 + 3 * normal(random));

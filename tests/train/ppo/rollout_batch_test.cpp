@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "train/random.h"
+#include "extract/io/random.h"
 
 namespace stride::ppo {
 namespace {

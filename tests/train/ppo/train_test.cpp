@@ -7,21 +7,21 @@
 #include <csignal>
 #include <thread>
 
-#include "extract/file.h"
+#include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/train/support/point_mass.h"
-#include "train/curve.h"
 #include "train/ppo/slot.h"
+#include "train/training/curve.h"
 
 namespace stride::ppo {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<Environment> point_mass(int) { return std::make_unique<PointMass>(); }
+std::unique_ptr<environment::Environment> point_mass(int) { return std::make_unique<PointMass>(); }
 
-TrainOptions small_run() {
-  TrainOptions options;
+training::TrainOptions small_run() {
+  training::TrainOptions options;
   options.run.learner = "ppo";
   options.run.decisions = 4000;
   options.run.environments = 10;
@@ -58,17 +58,17 @@ Potential some_potential() {
   return potential;
 }
 
-std::string trained(const TrainOptions& options, const Demonstration& demonstration,
-                    const fs::path& run) {
-  make_run_folder(options, demonstration, run);
+std::string trained(const training::TrainOptions& options,
+                    const training::Demonstration& demonstration, const fs::path& run) {
+  training::make_run_folder(options, demonstration, run);
   const std::atomic<bool> stop = false;
-  stride::train(run, point_mass, stop, nullptr);
+  ppo::train(run, point_mass, stop, nullptr);
   return read_file(run / "curve.csv");
 }
 
 TEST(PpoTrain, BringsAPointMassToRest) {
   TemporaryFolder folder;
-  TrainOptions options = small_run();
+  training::TrainOptions options = small_run();
   options.run.decisions = 60000;
   options.run.evaluation_episodes = 10;
   trained(options, {}, folder / "run");
@@ -81,8 +81,8 @@ TEST(PpoTrain, BringsAPointMassToRest) {
 
 TEST(PpoTrain, CurveDependsOnTheSeedAloneNotOnThreads) {
   TemporaryFolder folder;
-  const Demonstration demonstration{.potential = some_potential(), .reference = {}};
-  TrainOptions options = small_run();
+  const training::Demonstration demonstration{.potential = some_potential(), .reference = {}};
+  training::TrainOptions options = small_run();
   const std::string curve = trained(options, demonstration, folder / "a");
   options.run.threads = 3;
   EXPECT_EQ(trained(options, demonstration, folder / "b"), curve);
@@ -95,7 +95,7 @@ bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
   const pid_t child = ::fork();
   if (child == 0) {
     const std::atomic<bool> stop = false;
-    stride::train(run, point_mass, stop, nullptr);
+    ppo::train(run, point_mass, stop, nullptr);
     ::_exit(0);
   }
   std::this_thread::sleep_for(after);
@@ -107,19 +107,19 @@ bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
 
 TEST(PpoTrain, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TemporaryFolder folder;
-  const Demonstration demonstration{.potential = some_potential(), .reference = {}};
-  TrainOptions options = small_run();
+  const training::Demonstration demonstration{.potential = some_potential(), .reference = {}};
+  training::TrainOptions options = small_run();
   options.run.decisions = 20000;
   options.run.checkpoint_s = 0.01;
   const std::string uninterrupted = trained(options, demonstration, folder / "a");
-  make_run_folder(options, demonstration, folder / "b");
+  training::make_run_folder(options, demonstration, folder / "b");
   Random random(17);
   int kills = 0;
   for (int i = 0; i < 12; ++i)
     kills += train_and_kill(folder / "b", std::chrono::microseconds(uniform_index(random, 60'000)));
   EXPECT_GT(kills, 3) << "the run is too short for this test";
   const std::atomic<bool> stop = false;
-  EXPECT_TRUE(stride::train(folder / "b", point_mass, stop, nullptr).finished);
+  EXPECT_TRUE(ppo::train(folder / "b", point_mass, stop, nullptr).finished);
   EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
   EXPECT_EQ(read_file(folder / "b" / "agent.safetensors"),
             read_file(folder / "a" / "agent.safetensors"));
@@ -130,8 +130,8 @@ TEST(PpoTrain, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
 TEST(PpoSlot, ShapingTelescopesOverAnEpisode) {
   const Potential potential = some_potential();
   const double gamma = 0.9;
-  const Observer observer(PointMass().spec(),
-                          {.centre = false, .derived = false, .activations = false}, 0.1);
+  const environment::Observer observer(
+      PointMass().spec(), {.centre = false, .derived = false, .activations = false}, 0.1);
   const auto make = [&](const Potential* shaping) {
     return Slot(std::make_unique<PointMass>(), observer,
                 {.action_repeat = 2, .gamma = gamma, .potential = shaping}, 3);
@@ -155,7 +155,8 @@ TEST(PpoSlot, ShapingTelescopesOverAnEpisode) {
       sum += factor * (static_cast<double>(with.reward) - static_cast<double>(without.reward));
       factor *= gamma;
       for (int i = 0; i < 2; ++i)
-        if (const Step& step = twin.step(action.cast<double>()); step.terminated) break;
+        if (const environment::Step& step = twin.step(action.cast<double>()); step.terminated)
+          break;
     }
     const double last = end == End::terminated
                             ? 0

@@ -1,0 +1,273 @@
+#include "calibrate/gait/verdict.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "extract/io/statistics.h"
+
+namespace stride::gait {
+namespace {
+
+constexpr double kPriorOnlyConfidence =
+    0.3;  // confidence: at most that, only the tracker's prior speaks
+
+/// The distance that holds 90 % of the values.
+double spread(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[values.size() * 95 / 100] - values[values.size() * 5 / 100];
+}
+
+/// A coordinate of one part from another, where both are marked.
+std::vector<double> differences(const Trajectory& trajectory, BodyPart part, BodyPart from,
+                                int axis) {
+  std::vector<double> values;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    if (frame[part].present() && frame[from].present())
+      values.push_back(frame[part].p_px[axis] - frame[from].p_px[axis]);
+  return values;
+}
+
+double median_length(const Trajectory& trajectory, BodyPart a, BodyPart b) {
+  std::vector<double> values;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    if (frame[a].present() && frame[b].present())
+      values.push_back((frame[a].p_px - frame[b].p_px).norm());
+  return median(values);
+}
+
+void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
+  constexpr std::size_t kLeastFrames = 8;
+  const std::size_t frames = trajectory.frames.size();
+  if (frames < kLeastFrames)
+    verdict.refuse(fmt::format("{} frames: at least {} are needed", frames, kLeastFrames));
+  for (const BodyPart part : kRequiredParts) {
+    const auto seen = std::ranges::count_if(
+        trajectory.frames, [&](const TrajectoryFrame& frame) { return frame[part].present(); });
+    const auto count = static_cast<std::size_t>(seen);
+    if (count < kLeastFrames || count * 4 < frames)
+      verdict.refuse(fmt::format("{} is marked in {} of {} frames: a quarter is needed; mark it",
+                                 name(part), count, frames));
+    else if (std::ranges::none_of(trajectory.frames, [&](const TrajectoryFrame& frame) {
+               return frame[part].present() && frame[part].confidence > kPriorOnlyConfidence;
+             }))
+      verdict.refuse(fmt::format(
+          "{} is seen in no frame: what the other leg does tells nothing of it; mark it",
+          name(part)));
+  }
+}
+
+/// How far the ankles swing, in legs: a runner's reach two thirds fore and aft.
+void judge_view(const Trajectory& trajectory, Verdict& verdict) {
+  double leg = 0, below = 0, fore_aft = 0, vertical = 0;
+  for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
+                                    std::pair{BodyPart::knee_l, BodyPart::ankle_l}}) {
+    leg += 0.5 * (median_length(trajectory, BodyPart::pelvis, knee) +
+                  median_length(trajectory, knee, ankle));
+    below += 0.5 * median(differences(trajectory, knee, BodyPart::pelvis, 1));
+    fore_aft += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 0));
+    vertical += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 1));
+  }
+  if (!(leg > 10)) {
+    verdict.refuse(fmt::format("legs are {:.0f} px long: ten are needed; use a larger video", leg));
+    return;
+  }
+  if (below < 0) verdict.refuse("knees are above the pelvis: the clip stands on its head; turn it");
+  if (fore_aft < 0.3 * leg && vertical < 0.12 * leg)
+    verdict.refuse(fmt::format("the feet move by {:.0f} % of a leg: nobody runs here",
+                               100 * std::hypot(fore_aft, vertical) / leg));
+  else if (fore_aft < 0.45 * leg)
+    verdict.refuse(
+        fmt::format("the feet swing by {:.0f} % of a leg fore and aft, a runner's by 100 "
+                    "%: not seen from the side",
+                    100 * fore_aft / leg));
+}
+
+/// Whether the background moves here as in neither of the frames beside, by two fifths of a leg; or
+/// is lost.
+bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
+  const auto& frames = trajectory.frames;
+  if (!frames[i].camera_px.allFinite()) return true;
+  const auto leaps = [&](std::size_t j) {
+    return (frames[i].camera_px - frames[j].camera_px).norm() > 0.4 * leg_px;
+  };
+  return i >= 2 && i + 1 < frames.size() && leaps(i - 1) && leaps(i + 1);
+}
+
+/// Frames whose background has nothing to do with that of the frame before. Where there are many,
+/// it cannot be followed and says nothing.
+void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+  std::vector<int> changes;
+  for (std::size_t i = 1; i < trajectory.frames.size(); ++i)
+    if (scene_changes(trajectory, i, leg_px)) changes.push_back(trajectory.frames[i].frame);
+  if (changes.empty() || changes.size() > std::max<std::size_t>(1, trajectory.frames.size() / 50))
+    return;
+  verdict.note(fmt::format("the background changes at frame {}: a cut; trim the clip",
+                           fmt::join(changes, ", ")));
+}
+
+/// Jumps of the pelvis by more than half a leg between neighbouring frames.
+void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
+                const fit::StrideFit& fit, double leg_px, Verdict& verdict) {
+  for (std::size_t i = 1; i < fit.pelvis_px.size(); ++i) {
+    const double jump = (fit.pelvis_px[i] - fit.pelvis_px[i - 1]).norm();
+    const double gap_s = observations.u_s[i] - observations.u_s[i - 1];
+    if (jump < 0.5 * leg_px || jump / gap_s < 15 * leg_px) continue;
+    verdict.note(
+        fmt::format("the runner jumps by {:.0f} px at frame {}: a cut, or another person; "
+                    "trim the clip",
+                    jump, trajectory.frames[i].frame));
+    return;
+  }
+}
+
+/// The longest time for which nothing is seen: no mark at all, or none in which the picture was
+/// believed.
+void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
+  constexpr double kLongest = 1.0 / 3;  // of a stride
+  const TrajectoryFrame* last = nullptr;
+  std::array<const TrajectoryFrame*, 2> gap{};
+  double longest_s = 0;
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    if (std::ranges::none_of(frame.points, [](const Point& point) {
+          return point.present() && point.confidence > kPriorOnlyConfidence;
+        }))
+      continue;
+    if (last != nullptr && frame.time_s - last->time_s > longest_s)
+      longest_s = frame.time_s - last->time_s, gap = {last, &frame};
+    last = &frame;
+  }
+  if (longest_s > kLongest * period_s)
+    verdict.note(
+        fmt::format("nothing is seen between frames {} and {}: black, hidden or lost; the other "
+                    "strides speak for them",
+                    gap[0]->frame, gap[1]->frame));
+}
+
+/// Which part has the most marks that were not believed.
+std::string worst_part(const fit::Marks& observations, const fit::StrideFit& fit) {
+  std::array<int, kBodyPartCount> bad{};
+  for (std::size_t i = 0; i < fit.marks.size(); ++i)
+    bad[index(observations.points[i].part)] += fit.marks[i].outlier ? 1 : 0;
+  const auto worst = std::ranges::max_element(bad) - bad.begin();
+  return fmt::format("{} in {} frames", name(kBodyParts[worst]), bad[worst]);
+}
+
+/// Free fall tells the time: the pelvis' greatest downward acceleration, in g.
+double apparent_gravity(const fit::StrideFit& fit) {
+  const double turn = 4 * std::numbers::pi / fit.runner.cadence[cadence::period_s];
+  double least = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector4d w = fit::VerticalOscillation::weights(i / 100.0);
+    least = std::min(least, -turn * turn *
+                                (w.head<2>().dot(fit.vertical_oscillation.c.head<2>()) +
+                                 4 * w.tail<2>().dot(fit.vertical_oscillation.c.tail<2>())));
+  }
+  return -least / 9.81;
+}
+
+void judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
+  const double period = fit.runner.cadence[cadence::period_s];
+  if (strides < 1)
+    verdict.refuse(fmt::format("{:.2f} strides are seen: one is needed, two to be sure", strides));
+  else if (strides < 1.5)
+    verdict.note(
+        fmt::format("only {:.1f} strides are seen: nothing tells whether they repeat", strides));
+  if (gait.walks)
+    verdict.note(
+        fmt::format("this is walking: a foot stands for {:.0f} % of the stride", 100 * gait.duty));
+  const double shortest = gait.walks ? 0.75 : 0.45, longest = gait.walks ? 1.8 : 1.05;
+  if (period < shortest || period > longest)
+    verdict.note(
+        fmt::format("a stride takes {:.2f} s, people's {} to {} s: is the frame rate or the "
+                    "slow-motion factor right?",
+                    period, shortest, longest));
+  constexpr double kSprint_m_s = 8;
+  if (gait.speed_m_s > kSprint_m_s)
+    verdict.note(
+        fmt::format("{:.1f} m/s is a sprint: is the frame rate, the slow-motion factor or the "
+                    "runner's size (--leg) right?",
+                    gait.speed_m_s));
+  const double gravity = apparent_gravity(fit);
+  if (!gait.walks && fit.vertical_oscillation.peak_to_peak_m() > 0.02 &&
+      (gravity < 0.45 || gravity > 3))
+    verdict.note(
+        fmt::format("the runner falls with {:.1f} g: is the frame rate, the slow-motion factor "
+                    "or the runner's size (--leg) right?",
+                    gravity));
+}
+
+}  // namespace
+
+void Verdict::refuse(std::string reason) {
+  if (!refused) reasons.clear();
+  refused = true;
+  reasons.push_back(std::move(reason));
+}
+
+std::string Verdict::text() const {
+  if (reasons.empty()) return "ok";
+  return fmt::format("{}{}", refused ? "refused: " : "ok, but ", fmt::join(reasons, "; "));
+}
+
+Verdict judge_marks(const Trajectory& trajectory) {
+  Verdict verdict;
+  judge_parts(trajectory, verdict);
+  if (!verdict.refused) judge_view(trajectory, verdict);
+  return verdict;
+}
+
+void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
+               const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  if (!fit.ok) {
+    verdict.refuse(fit.failure);
+    return;
+  }
+  const Runner& r = fit.runner;
+  const double leg_px = stride::leg_px(r);
+  const double relative = fit.sigma_px / leg_px;
+  if (fit.explained < 0.75)
+    verdict.refuse(
+        fmt::format("no stride repeats: the best period explains {:.0f} % of how the legs "
+                    "move; is it one runner, with the legs told apart?",
+                    100 * std::max(fit.explained, 0.0)));
+  if (relative > 0.1)
+    verdict.refuse(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg: are they on "
+                    "the right joints?",
+                    100 * relative));
+  else if (relative > 0.05)
+    verdict.note(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
+  if (fit.backward)
+    verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
+  const std::string outliers = fmt::format(
+      "{:.0f} % of the marks fit no stride, most of them {}: swapped legs, another "
+      "person, or lost tracks",
+      100 * fit.outlier_fraction, worst_part(observations, fit));
+  if (fit.outlier_fraction > 0.3)
+    verdict.refuse(outliers);
+  else if (fit.outlier_fraction > 0.12)
+    verdict.note(outliers);
+  judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict);
+  judge_scene(trajectory, leg_px, verdict);
+  judge_cuts(trajectory, observations, fit, leg_px, verdict);
+  judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
+  if (gait.correlation < 0.6)
+    verdict.note(
+        fmt::format("hip and knee move unlike a human runner's (correlation {:.2f}): are the marks "
+                    "on the right joints, is the frame rate or the slow-motion factor right?",
+                    gait.correlation));
+  const double ratio = r.body[body::thigh] / r.body[body::shank];
+  if (ratio < 0.65 || ratio > 1.5)
+    verdict.note(
+        fmt::format("the thigh is {:.2f} times the shank: a character, or marks on wrong "
+                    "joints",
+                    ratio));
+}
+
+}  // namespace stride::gait
