@@ -117,7 +117,7 @@ void save_checkpoint(const Training& training, const fs::path& run) {
   tensors.put_bytes("random", to_text(training.random));
   put(tensors, "actor", training.learner.actor(), training.learner.actor_adam());
   const ScaledCritic& critic = training.learner.critic();
-  put(tensors, "critic", critic.network, critic.adam);
+  put(tensors, "critic", critic.net, critic.adam);
   tensors.put("critic.scale", Eigen::VectorXd{{critic.shift, critic.scale, critic.batches}});
   tensors.put("actor.rate", Eigen::VectorXd{{training.learner.rate()}});
   const network::Normaliser::State& normaliser = training.normaliser.state();
@@ -141,7 +141,7 @@ void load_checkpoint(Training& training, const fs::path& run) {
   training.random = random_from(tensors.bytes("random"), tensors.file);
   Learner& learner = training.learner;
   get(tensors, "actor", learner.actor(), learner.actor_adam());
-  get(tensors, "critic", learner.critic().network, learner.critic().adam);
+  get(tensors, "critic", learner.critic().net, learner.critic().adam);
   Eigen::VectorXd scale(3);
   tensors.get("critic.scale", scale);
   learner.critic().shift = scale[0];

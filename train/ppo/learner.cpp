@@ -108,12 +108,12 @@ Learner::Learner(const Options& options, const environment::Mirror& features,
       actor_(shape(options.actor_hidden, options.activation, features.source.size(),
                    actions.source.size())),
       actor_adam_(adam(options)),
-      critic_{.network = network::Mlp<float>(
+      critic_{.net = network::Mlp<float>(
                   shape(options.critic_hidden, options.activation, features.source.size(), 1)),
               .adam = adam(options)},
       rate_(options.rate) {
   actor_.initialise(weights, 0.01);
-  critic_.network.initialise(weights, 0.1);
+  critic_.net.initialise(weights, 0.1);
 }
 
 void Learner::assess(training::ThreadPool& threads, RolloutBatch& batch) {
@@ -180,7 +180,7 @@ UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& rand
         Part& part = parts[static_cast<std::size_t>(i)];
         part.gather(batch, targets, columns.data() + from, to - from);
         part.descend_actor(actor_, clip, weight, minibatch);
-        part.descend_critic(critic_.network, minibatch);
+        part.descend_critic(critic_.net, minibatch);
       });
       Part& sum = parts.front();
       for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -195,7 +195,7 @@ UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& rand
       seen += minibatch;
       report.actor_gradient += actor_adam_.descend(actor_.parameters(), sum.actor_gradient, rate_);
       report.critic_gradient +=
-          critic_.adam.descend(critic_.network.parameters(), sum.critic_gradient, critic_rate);
+          critic_.adam.descend(critic_.net.parameters(), sum.critic_gradient, critic_rate);
     }
     report.steps += steps;
     report.kl /= seen, report.entropy /= seen, report.value_loss /= seen;

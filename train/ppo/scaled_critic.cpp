@@ -13,7 +13,7 @@ constexpr double kSmallestScale = 1e-3;
 
 Vector ScaledCritic::values(const Eigen::Ref<const Matrix>& states,
                             network::Mlp<float>::Workspace& work) const {
-  const Matrix& out = network.forward(states, work);
+  const Matrix& out = net.forward(states, work);
   return (out.row(0).array() * static_cast<float>(scale) + static_cast<float>(shift))
       .matrix()
       .transpose();
@@ -35,12 +35,12 @@ void ScaledCritic::rescale(const Vector& returns) {
   const double new_scale =
       std::max(kSmallestScale, std::sqrt(std::max(0.0, second - moved * moved)));
 
-  const auto blocks = network.blocks();
+  const auto blocks = net.blocks();
   const auto& weight = blocks[blocks.size() - 2];
   const auto& bias = blocks.back();
   const auto factor = static_cast<float>(scale / new_scale);
-  network.parameters().segment(weight.offset, weight.rows * weight.columns) *= factor;
-  float& b = network.parameters()[bias.offset];
+  net.parameters().segment(weight.offset, weight.rows * weight.columns) *= factor;
+  float& b = net.parameters()[bias.offset];
   b = static_cast<float>((scale * static_cast<double>(b) + shift - new_shift) / new_scale);
   shift = new_shift;
   scale = new_scale;

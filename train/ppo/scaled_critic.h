@@ -10,7 +10,7 @@ namespace stride::ppo {
 /// + shift. When the scale moves, the last layer is changed so that V stays (van Hasselt et al.
 /// 2016, PopArt).
 struct ScaledCritic {
-  network::Mlp<float> network;
+  network::Mlp<float> net;
   network::Adam<float> adam;
   double shift = 0, scale = 1;
   double batches = 0;  // that the scale has seen

@@ -59,10 +59,9 @@ TEST_F(Robust, FeetAreWhereTheEnginePutsThemHoweverLateTheyAreObserved) {
   for (int step = 0; step < 60; ++step) {
     const auto& body = exact.kinematics().bodies;
     const double x = exact.engine().state().q[1];
-    for (const auto& [name, origin] : {std::pair{"ankle_r", "talus_r"},
-                                       {"ankle_l", "talus_l"},
-                                       {"toe_r", "toes_r"},
-                                       {"toe_l", "toes_l"}}) {
+    for (const auto& [name, origin] :
+         {std::pair{"ankle_r", "talus_r"}, std::pair{"ankle_l", "talus_l"},
+          std::pair{"toe_r", "toes_r"}, std::pair{"toe_l", "toes_l"}}) {
       const simulation::Planar at = body[static_cast<std::size_t>(model_.body(origin))].position;
       EXPECT_NEAR(of(from_exact, std::string(name) + "_x"), at.x - x, 1e-9);
       EXPECT_NEAR(of(from_exact, std::string(name) + "_y"), at.y, 1e-9);

@@ -56,7 +56,7 @@ Learned learn(int size) {
     learned.report = learner.update(batch, 0, random, threads);
   }
   learned.actor = learner.actor().parameters();
-  learned.critic = learner.critic().network.parameters();
+  learned.critic = learner.critic().net.parameters();
   return learned;
 }
 
@@ -94,10 +94,10 @@ TEST(Learner, MirroredDecisionsAreThoseOfTheMirroredState) {
 TEST(ScaledCritic, KeepsItsValuesWhenItsScaleMoves) {
   Random random(4);
   ScaledCritic critic{
-      .network = network::Mlp<float>(
+      .net = network::Mlp<float>(
           {.inputs = 3, .outputs = 1, .hidden = {8}, .activation = network::Activation::tanh}),
       .adam = {}};
-  critic.network.initialise(random, 1);
+  critic.net.initialise(random, 1);
   Matrix states(3, 50);
   for (float& x : states.reshaped()) x = static_cast<float>(normal(random));
   network::Mlp<float>::Workspace work;
