@@ -112,7 +112,7 @@ void save_checkpoint(const Training& training, const fs::path& run) {
   training::Progress progress = training.progress;
   Sums sums = training.sums;
   visit_counters(progress, [&](const char* name, std::int64_t value) { tensors.put(name, value); });
-  visit_sums(progress,
+  visit_sums(progress, sums,
              [&](const char* name, double value) { tensors.put(name, Eigen::VectorXd{{value}}); });
   tensors.put_bytes("random", to_text(training.random));
   put(tensors, "actor", training.learner.actor(), training.learner.actor_adam());
@@ -130,7 +130,7 @@ void save_checkpoint(const Training& training, const fs::path& run) {
 }
 
 void load_checkpoint(Training& training, const fs::path& run) {
-  const network::Tensors tensors = load_tensors(training::checkpoint_file(run));
+  const network::Tensors tensors = network::load_tensors(training::checkpoint_file(run));
   require(tensors.meta("format") == "stride ppo checkpoint" && tensors.meta("version") == "1",
           "{}: is a {} of version {}, a stride ppo checkpoint of version 1 is needed", tensors.file,
           tensors.meta("format"), tensors.meta("version"));
