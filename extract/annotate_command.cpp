@@ -14,6 +14,7 @@
 #include "extract/annotation/session/predict.h"
 #include "extract/annotation/session/script.h"
 #include "extract/commands.h"
+#include "extract/commands/detection_options.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/pose/pose_points.h"
@@ -242,8 +243,8 @@ void add_annotate_command(CLI::App& app) {
   command.add_flag("--head", request->session.head, "ask for the head too");
   command.add_option("--import", request->import_from,
                      "points of another program to correct: a file or a folder");
-  imports::add_import_options(command, request->import);
-  pose::add_pose_options(command, request->pose);
+  add_import_options(command, request->import);
+  add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_flag("--keys", request->keys, "print the table of keys and leave");

@@ -8,6 +8,7 @@
 
 #include "extract/annotation/labelled_clip.h"
 #include "extract/commands.h"
+#include "extract/commands/detection_options.h"
 #include "extract/import/export.h"
 #include "extract/io/error.h"
 #include "extract/pose/pose_points.h"
@@ -129,8 +130,8 @@ void add_track_command(CLI::App& app) {
                      "clicks (default: NAME.keypoints.json beside the video)");
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
-  imports::add_import_options(command, request->import);
-  pose::add_pose_options(command, request->pose);
+  add_import_options(command, request->import);
+  add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_option("-o,--out", request->out,

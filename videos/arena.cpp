@@ -1,12 +1,12 @@
 #include <cmath>
 
 #include "videos/colour.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
 
-class Arena final : public Scene {
+class Arena final : public Scenery {
  public:
   explicit Arena(std::uint64_t seed) : grain_(seed) {}
 
@@ -58,6 +58,6 @@ class Arena final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> arena_scene(std::uint64_t seed) { return std::make_unique<Arena>(seed); }
+std::unique_ptr<Scenery> arena_scene(std::uint64_t seed) { return std::make_unique<Arena>(seed); }
 
 }  // namespace stride::videos

@@ -23,8 +23,8 @@ Clip human() {
 }
 
 /// A camera that shows so many pixels a metre of the runner's plane from that far.
-Camera camera(double pixels_per_metre, double distance_m) {
-  Camera camera;
+PinholeCamera camera(double pixels_per_metre, double distance_m) {
+  PinholeCamera camera;
   camera.distance_m = distance_m;
   camera.focal_px = pixels_per_metre * distance_m;
   return camera;
@@ -210,8 +210,8 @@ double Motion::belt_m(double time_s) const {
   return clip_.treadmill ? grounding_.speed_m_s * time_s : 0;
 }
 
-Camera Motion::camera(double time_s) const {
-  Camera camera = clip_.camera;
+PinholeCamera Motion::camera(double time_s) const {
+  PinholeCamera camera = clip_.camera;
   camera.width_px = clip_.width_px;
   camera.height_px = clip_.height_px;
   camera.from_left = clip_.to_left;

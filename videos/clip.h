@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "videos/camera.h"
+#include "videos/pinhole_camera.h"
 #include "videos/skeleton.h"
 
 namespace stride::videos {
@@ -21,14 +21,14 @@ struct Clip {
   int frames = 96;
   double slow_motion = 1;  // seconds of video a second of the runner
 
-  Gait gait;
+  GaitCurves gait;
   Proportions proportions;
   double first_phase = 0;
   double deviation_rad = 0;  // rms of every joint from the mean stride, slow and random
   bool to_left = false;
   bool treadmill = false;  // the runner stays, the belt runs
 
-  Camera camera;  // at the start; x_m relative to the runner if it follows
+  PinholeCamera camera;  // at the start; x_m relative to the runner if it follows
   bool camera_follows = true;
   double sway_m = 0.10;  // how far the camera lags and leads
   double zoom = 0;       // growth of the focal length over the clip
@@ -54,7 +54,7 @@ class Motion {
   double speed_m_s() const { return grounding_.speed_m_s; }
   Skeleton skeleton(double time_s) const;
   double belt_m(double time_s) const;  // how far the belt of the treadmill has run
-  Camera camera(double time_s) const;
+  PinholeCamera camera(double time_s) const;
 
  private:
   struct Wave {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "videos/noise.h"
 #include "videos/patch.h"
 #include "videos/skeleton.h"
+#include "videos/texture.h"
 
 namespace stride::videos {
 

@@ -2,14 +2,14 @@
 
 #include "videos/colour.h"
 #include "videos/limb.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
 
 constexpr double kBack_m = -1.05, kFront_m = 0.95, kHalf_m = 0.36;  // of the treadmill
 
-class Gym final : public Scene {
+class Gym final : public Scenery {
  public:
   explicit Gym(std::uint64_t seed) : grain_(seed) {}
 
@@ -100,6 +100,6 @@ class Gym final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> gym_scene(std::uint64_t seed) { return std::make_unique<Gym>(seed); }
+std::unique_ptr<Scenery> gym_scene(std::uint64_t seed) { return std::make_unique<Gym>(seed); }
 
 }  // namespace stride::videos

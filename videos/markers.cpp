@@ -1,5 +1,5 @@
 #include "videos/costume.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
@@ -25,7 +25,7 @@ class Markers final : public Costume {
   }
 };
 
-class Dark final : public Scene {
+class Dark final : public Scenery {
   Colour ground(double, double, double) const override { return {}; }
   double wall_z_m() const override { return -6; }
   double wall_height_m() const override { return 1; }
@@ -41,6 +41,6 @@ Colour marker_colour(BodyPart part) {
 }
 
 std::unique_ptr<Costume> marker_costume() { return std::make_unique<Markers>(); }
-std::unique_ptr<Scene> dark_scene() { return std::make_unique<Dark>(); }
+std::unique_ptr<Scenery> dark_scene() { return std::make_unique<Dark>(); }
 
 }  // namespace stride::videos

@@ -1,13 +1,13 @@
 #include <cmath>
 
 #include "videos/colour.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
 
 /// Flat colours and lines, as painted on film.
-class Meadow final : public Scene {
+class Meadow final : public Scenery {
  protected:
   Colour ground(double x, double z, double) const override {
     if (z < -1.3 || z > 1.4) {
@@ -61,6 +61,6 @@ class Meadow final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> meadow_scene() { return std::make_unique<Meadow>(); }
+std::unique_ptr<Scenery> meadow_scene() { return std::make_unique<Meadow>(); }
 
 }  // namespace stride::videos

@@ -86,7 +86,7 @@ Colour shaded(const Patch& patch, const Colour& colour, double across, double al
 }
 
 /// Rows and columns of the image that the patch can reach.
-cv::Rect reach(const Patch& patch, const Profile& profile, const Camera& camera,
+cv::Rect reach(const Patch& patch, const Profile& profile, const PinholeCamera& camera,
                const cv::Mat& image) {
   Vector2d low(1e9, 1e9), high(-1e9, -1e9);
   for (const double s : {profile.start(), profile.end()})
@@ -106,8 +106,8 @@ cv::Rect reach(const Patch& patch, const Profile& profile, const Camera& camera,
 const Colour kOutline(0.10F, 0.08F, 0.09F);
 
 /// `widened_m` > 0: the outline alone.
-void paint_one(const Patch& patch, const Camera& camera, double du, double dv, cv::Mat& image,
-               double widened_m) {
+void paint_one(const Patch& patch, const PinholeCamera& camera, double du, double dv,
+               cv::Mat& image, double widened_m) {
   const Profile profile(patch, widened_m);
   const cv::Rect box = reach(patch, profile, camera, image);
   // (s, t) is affine in (u, v): three points give it.
@@ -133,7 +133,7 @@ void paint_one(const Patch& patch, const Camera& camera, double du, double dv, c
 
 }  // namespace
 
-void paint(const std::vector<Patch>& patches, const Camera& camera, double du, double dv,
+void paint(const std::vector<Patch>& patches, const PinholeCamera& camera, double du, double dv,
            cv::Mat& image) {
   for (std::size_t i = 0; i < patches.size();) {
     std::size_t end = i;

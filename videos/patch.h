@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "videos/camera.h"
 #include "videos/colour.h"
+#include "videos/pinhole_camera.h"
 
 namespace stride::videos {
 
@@ -34,7 +34,7 @@ struct Patch {
 
 /// Paints patches over one another on an image of floats, one sample at (u + du, v + dv) of each
 /// pixel.
-void paint(const std::vector<Patch>& patches, const Camera& camera, double du, double dv,
+void paint(const std::vector<Patch>& patches, const PinholeCamera& camera, double du, double dv,
            cv::Mat& image);
 
 }  // namespace stride::videos

@@ -8,7 +8,7 @@
 #include "extract/io/error.h"
 #include "extract/io/random.h"
 #include "videos/costume.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
@@ -50,7 +50,7 @@ std::unique_ptr<Costume> make_costume(const Clip& clip) {
   throw Error(fmt::format("clip {}: character '{}': is none", clip.name, clip.character));
 }
 
-std::unique_ptr<Scene> make_scene(const Clip& clip) {
+std::unique_ptr<Scenery> make_scene(const Clip& clip) {
   const std::uint64_t seed = clip.seed + 2;
   if (clip.scene == "track") return track_scene(seed);
   if (clip.scene == "street") return street_scene(seed);
@@ -83,7 +83,7 @@ cv::Mat developed(const cv::Mat& light, const Clip& clip, int index) {
 struct Renderer::Parts {
   Motion motion;
   std::unique_ptr<Costume> costume;
-  std::unique_ptr<Scene> scene;
+  std::unique_ptr<Scenery> scene;
 };
 
 Renderer::Renderer(const Clip& clip)
@@ -103,7 +103,7 @@ cv::Mat Renderer::frame(int index) const {
     const double open = clip.shutter * (((i * 3 + 1) % clip.samples + 0.5) / clip.samples - 0.5);
     const double time_s = clip.time_s(index + open);
     const Skeleton skeleton = motion.skeleton(time_s);
-    const Camera camera = motion.camera(time_s);
+    const PinholeCamera camera = motion.camera(time_s);
     parts_->scene->paint(camera, du, dv, cast_shadow(skeleton), motion.belt_m(time_s), sample);
     paint(parts_->scene->behind(clip.to_left), camera, du, dv, sample);
     paint(parts_->costume->dress(skeleton, clip.proportions, clip.to_left), camera, du, dv, sample);

@@ -57,7 +57,7 @@ const Vector3d& Skeleton::operator[](BodyPart part) const {
   return head;
 }
 
-Skeleton pose(const Gait& gait, const Proportions& p, double phase, double x_m,
+Skeleton pose(const GaitCurves& gait, const Proportions& p, double phase, double x_m,
               double pelvis_height_m, const Deviation& deviation) {
   Skeleton s;
   s.phase = phase - std::floor(phase);
@@ -104,7 +104,7 @@ double clearance(const Skeleton& skeleton, const Proportions& proportions, int s
   return std::min({points[0].y(), points[1].y(), skeleton.toe[side].y() - 0.02});
 }
 
-Grounding ground(const Gait& gait, const Proportions& p) {
+Grounding ground(const GaitCurves& gait, const Proportions& p) {
   constexpr int kSteps = 400;
   Grounding result;
   const auto at = [&](double phase) {
@@ -132,7 +132,7 @@ Grounding ground(const Gait& gait, const Proportions& p) {
   return result;
 }
 
-Gait standing(Gait gait, const Proportions& p, double hop_m) {
+GaitCurves standing(GaitCurves gait, const Proportions& p, double hop_m) {
   constexpr int kSteps = 200, kEven = 4;
   std::vector<double> height(kSteps);
   for (int i = 0; i < kSteps; ++i) {

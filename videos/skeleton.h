@@ -4,7 +4,7 @@
 #include <array>
 
 #include "extract/skeleton/body_part.h"
-#include "videos/gait.h"
+#include "videos/gait_curves.h"
 
 namespace stride::videos {
 
@@ -40,7 +40,7 @@ struct Deviation {
 };
 
 /// The runner at a phase of the stride, hips at (x, height).
-Skeleton pose(const Gait& gait, const Proportions& proportions, double phase, double x_m,
+Skeleton pose(const GaitCurves& gait, const Proportions& proportions, double phase, double x_m,
               double pelvis_height_m, const Deviation& deviation = {});
 
 /// Height of the lowest point of a shoe above the ground.
@@ -52,10 +52,10 @@ struct Grounding {
       0;                 // of the hips, so that the lowest shoe of the stride touches the ground
   double speed_m_s = 0;  // so that the shoe that is on the ground stands still on average
 };
-Grounding ground(const Gait& gait, const Proportions& proportions);
+Grounding ground(const GaitCurves& gait, const Proportions& proportions);
 
 /// The gait with a height of the pelvis that keeps the lower shoe on the ground, but for a hop of
 /// `hop_m` in each flight: where legs or angles are not those with which the height was measured.
-Gait standing(Gait gait, const Proportions& proportions, double hop_m);
+GaitCurves standing(GaitCurves gait, const Proportions& proportions, double hop_m);
 
 }  // namespace stride::videos

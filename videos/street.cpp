@@ -1,12 +1,12 @@
 #include <cmath>
 
 #include "videos/colour.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
 
-class Street final : public Scene {
+class Street final : public Scenery {
  public:
   explicit Street(std::uint64_t seed) : grain_(seed) {}
 
@@ -59,6 +59,6 @@ class Street final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> street_scene(std::uint64_t seed) { return std::make_unique<Street>(seed); }
+std::unique_ptr<Scenery> street_scene(std::uint64_t seed) { return std::make_unique<Street>(seed); }
 
 }  // namespace stride::videos

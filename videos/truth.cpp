@@ -35,7 +35,7 @@ Trajectory truth_px(const Clip& clip) {
     frame.frame = i;
     frame.time_s = clip.time_s(i);
     const Skeleton skeleton = motion.skeleton(frame.time_s);
-    const Camera camera = motion.camera(frame.time_s);
+    const PinholeCamera camera = motion.camera(frame.time_s);
     for (const BodyPart part : kBodyParts) frame[part] = {camera.project(skeleton[part]), 1};
   }
   return trajectory;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "calibrate/gait/human_running.h"
+#include "calibrate/osim/storage.h"
 #include "extract/io/file.h"
 
 namespace stride::report {
@@ -116,20 +117,17 @@ std::string report_text(const Trajectory& trajectory, const SagittalModel& model
 }
 
 void save_mot(const CalibratedTrajectory& run, const std::filesystem::path& file) {
-  std::string text =
-      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\nendheader\ntime",
-                  run.source, run.samples.size(), 1 + kCoordinateNames.size());
-  for (const char* name : kCoordinateNames) text += fmt::format("\t{}", name);
-  text += "\n";
+  osim::Storage storage{.name = run.source, .in_degrees = true, .columns = {}, .rows = {}};
+  storage.columns.assign(kCoordinateNames.begin(), kCoordinateNames.end());
   for (const CalibratedSample& sample : run.samples) {
-    text += fmt::format("{:.8g}", sample.time_s);
+    osim::Storage::Row& row = storage.rows.emplace_back();
+    row.time_s = sample.time_s;
     for (std::size_t i = 0; i < sample.coordinates.size(); ++i) {
       const bool metres = i == 1 || i == 2;
-      text += fmt::format("\t{:.8f}", sample.coordinates[i] / (metres ? 1 : kDegree));
+      row.values.push_back(sample.coordinates[i] / (metres ? 1 : kDegree));
     }
-    text += "\n";
   }
-  write_file_atomically(file, text);
+  write_file_atomically(file, osim::to_text(storage));
 }
 
 }  // namespace stride::report

@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "extract/import/formats/formats.h"
@@ -120,33 +119,6 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
   Detections detections = take_person(std::move(people), options, path.string());
   detections.format = format;
   return detections;
-}
-
-void add_import_options(CLI::App& command, ImportOptions& options) {
-  command
-      .add_option("--format", options.format, "Format of the imported file, if not told from it")
-      ->check(CLI::IsMember(import_formats()));
-  command.add_option("--person", options.person,
-                     "Which person of the imported file: 1 the largest sustained, 2 the next, …");
-  command.add_option("--min-confidence", options.min_confidence,
-                     "Imported points below this count as absent");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--labels",
-          [&options](const std::vector<std::string>& pairs) {
-            for (const std::string& pair : pairs) {
-              const auto equals = pair.find('=');
-              require(equals != std::string::npos, "--labels {}: expected PART=LABEL", pair);
-              body_part(pair.substr(0, equals));
-              options.labels[pair.substr(0, equals)] = pair.substr(equals + 1);
-            }
-          },
-          "Names in the imported file, PART=LABEL,…")
-      ->delimiter(',');
-  command.add_option("--y-up", options.y_up_height_px,
-                     "The imported file's y grows upwards; height of the video in px");
-  command.add_option("--import-rate", options.rate_hz,
-                     "Frame rate of the video in Hz, for files that say times and no frames");
 }
 
 }  // namespace stride::imports

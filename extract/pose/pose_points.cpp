@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "extract/import/formats/formats.h"
@@ -82,23 +81,6 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
       imports::take_person(std::move(people), options, pose.model.string());
   detections.format = "pose";
   return detections;
-}
-
-void add_pose_options(CLI::App& command, PoseOptions& options) {
-  command.add_option("--pose", options.model,
-                     "points of a pose model of yours instead: an .onnx with a .toml beside it");
-  command.add_option("--pose-config", options.sidecar,
-                     "the model's .toml, if it has another name or place");
-  command
-      .add_option_function<std::vector<double>>(
-          "--pose-box",
-          [&options](const std::vector<double>& box) {
-            require(box[2] > 0 && box[3] > 0, "--pose-box {} {} {} {}: must have a size", box[0],
-                    box[1], box[2], box[3]);
-            options.box_px = cv::Rect2d(box[0], box[1], box[2], box[3]);
-          },
-          "where the person is on the first frame, px: X Y WIDTH HEIGHT (default: whole frames)")
-      ->expected(4);
 }
 
 }  // namespace stride::pose

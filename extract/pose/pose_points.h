@@ -23,7 +23,4 @@ struct PoseOptions {
 imports::Detections pose_points(const std::filesystem::path& video, const PoseOptions& pose,
                                 const imports::ImportOptions& options = imports::ImportOptions());
 
-/// Adds --pose, --pose-config and --pose-box to a command.
-void add_pose_options(CLI::App& command, PoseOptions& options);
-
 }  // namespace stride::pose

@@ -2,7 +2,8 @@
 
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/StringTools.hpp>
+#include <CLI/TypeTools.hpp>
 #include <cmath>
 
 #include "extract/io/error.h"

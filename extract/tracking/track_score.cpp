@@ -8,7 +8,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
-#include "extract/tracking/spline.h"
+#include "extract/tracking/cubic_spline.h"
 
 namespace stride::tracking {
 namespace {
@@ -72,7 +72,7 @@ Trajectory splined(const Trajectory& clicks, const Trajectory& truth) {
       times_s.push_back(frame.time_s);
       points.push_back(frame[part].p_px);
     }
-    const Spline spline(times_s, points);
+    const CubicSpline spline(times_s, points);
     for (TrajectoryFrame& frame : result.frames) frame[part].p_px = spline(frame.time_s);
   }
   return result;

@@ -1,7 +1,7 @@
 // The TOML file of `stride convert`.
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
+#include <CLI/TypeTools.hpp>
 
 #include "extract/io/error.h"
 #include "extract/io/toml.h"

@@ -54,7 +54,7 @@ class TrueHeight {
   double vertical_oscillation(double phase) const {
     return to_model_ * (gait_.pelvis_height_m(phase) - gait_.pelvis_height_m.mean);
   }
-  const videos::Gait& gait_;
+  const videos::GaitCurves& gait_;
   double to_model_ = 1, lowest_m_ = 0;
 };
 

@@ -6,7 +6,7 @@
 
 #include "extract/io/table.h"
 #include "videos/clip.h"
-#include "videos/gait.h"
+#include "videos/gait_curves.h"
 
 namespace stride::videos {
 namespace {
@@ -27,7 +27,7 @@ TEST(Skeleton, MovesKneesAndAnklesAsMeasured) {
 }
 
 TEST(Skeleton, IsTheSameHalfAStrideLaterWithLegsExchanged) {
-  const Gait gait = rajagopal_run();
+  const GaitCurves gait = rajagopal_run();
   const Skeleton now = pose(gait, {}, 0.2, 0, 0.9), later = pose(gait, {}, 0.7, 0, 0.9);
   for (const BodyPart part : kBodyParts) {
     const Eigen::Vector3d mirrored_point =
@@ -37,7 +37,7 @@ TEST(Skeleton, IsTheSameHalfAStrideLaterWithLegsExchanged) {
 }
 
 TEST(Skeleton, StandsOnTheGroundAndDoesNotSlide) {
-  const Gait gait = rajagopal_run();
+  const GaitCurves gait = rajagopal_run();
   const Grounding grounding = ground(gait, {});
   // The trial's belt ran at 3.5–3.9 m/s in stance.
   EXPECT_GT(grounding.speed_m_s, 3.5);

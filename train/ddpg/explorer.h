@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "shaping/potential.h"
-#include "train/ddpg/noise.h"
+#include "train/ddpg/ornstein_uhlenbeck.h"
 #include "train/ddpg/replay_buffer.h"
 #include "train/environment/environment.h"
 #include "train/environment/observation.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "extract/io/error.h"
+#include "extract/io/random.h"
 #include "train/simulation/engine/runner_layout.h"
 #include "train/simulation/make_engine.h"
 
@@ -15,9 +16,6 @@ simulation::EngineOptions engine_options(const RunnerOptions& options) {
   engine.accuracy = options.accuracy;
   return competition::under(options.rules, engine);
 }
-
-/// [0, 1)
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// The depth to which the feet sink in quiet standing, m.
 constexpr double kStandingDepth_m = 0.025;
@@ -91,7 +89,7 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
     start_on_reference(random);
   else
     competition::set_initial_state(options_.rules, *engine_);
-  start_x_m_ = engine_->state().q[1];
+  start_x_m_ = engine_->state().q[simulation::kPelvisX];
   kinematics_ = engine_->kinematics();
   observe();
   return step_.observation;
@@ -117,10 +115,10 @@ void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
   state.q = now.coordinates;
   for (int k = 0; k < simulation::kCoordinates; ++k)
     state.u[k] = (after.coordinates[k] - before.coordinates[k]) / (after.time_s - before.time_s);
-  state.q[1] = 0;
+  state.q[simulation::kPelvisX] = 0;
   engine_->set_state(state);
   const double depth = deepest_contact(engine_->model(), engine_->kinematics());
-  state.q[2] += std::max(depth - kStandingDepth_m, 0.0);
+  state.q[simulation::kPelvisY] += std::max(depth - kStandingDepth_m, 0.0);
   engine_->set_state(state);
   engine_->equilibrate_fibers();
   initial_phase_ = now.phase;
@@ -142,7 +140,7 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
     finite = std::isfinite(action[i]);
     excitations[i] = std::clamp(action[i], 0.0, 1.0);
   }
-  const double x_before = engine_->state().q[1];
+  const double x_before = engine_->state().q[simulation::kPelvisX];
   if (finite) {
     report_ = engine_->advance(excitations, competition::kStep_s);
   } else {
@@ -170,11 +168,11 @@ Pose RunnerEnvironment::pose() const {
   const auto& bodies = kinematics_.bodies;
   const simulation::RunnerState& state = engine_->state();
   const auto from_pelvis = [&](int body) {
-    return Eigen::Vector2d(bodies[body].position.x - state.q[1],
-                           bodies[body].position.y - state.q[2]);
+    return Eigen::Vector2d(bodies[body].position.x - state.q[simulation::kPelvisX],
+                           bodies[body].position.y - state.q[simulation::kPelvisY]);
   };
   Pose pose;
-  pose.pelvis_height_m = state.q[2];
+  pose.pelvis_height_m = state.q[simulation::kPelvisY];
   pose.knee_r = from_pelvis(knee_r_);
   pose.knee_l = from_pelvis(knee_l_);
   pose.foot_r = from_pelvis(foot_r_);

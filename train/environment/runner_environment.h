@@ -47,7 +47,9 @@ class RunnerEnvironment final : public Environment {
   const Step& step(const Eigen::VectorXd& action) override;
   Pose pose() const override;
   double time_s() const override { return engine_->state().time_s; }
-  double distance_m() const override { return engine_->state().q[1] - start_x_m_; }
+  double distance_m() const override {
+    return engine_->state().q[simulation::kPelvisX] - start_x_m_;
+  }
   double initial_phase() const override { return initial_phase_; }
 
   const simulation::Engine& engine() const { return *engine_; }

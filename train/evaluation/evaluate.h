@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "train/evaluation/episodes.h"
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 #include "train/training/options.h"
 
 namespace stride::evaluation {

@@ -29,7 +29,7 @@ cv::Scalar activation_colour(double activation) {
 using Frame = simulation::RunnerKinematics::Frame;
 
 /// A point fixed in a body, in the ground.
-simulation::Planar at(const Frame& frame, double x, double y) {
+simulation::PlanarVector at(const Frame& frame, double x, double y) {
   const double c = std::cos(frame.angle_rad), s = std::sin(frame.angle_rad);
   return {frame.position.x + c * x - s * y, frame.position.y + s * x + c * y};
 }
@@ -56,7 +56,7 @@ void draw_muscles(Canvas& canvas, const FilmModel& model, const RunnerPicture& p
     if (law.side != side) continue;
     std::vector<laws::PathNode> nodes(law.path.points.size());
     nodes.resize(laws::place_path(law.path, q.data(), u.data(), frames, nodes.data()));
-    std::vector<simulation::Planar> path;
+    std::vector<simulation::PlanarVector> path;
     for (const laws::PathNode& node : nodes)
       path.push_back({node.position_m[0], node.position_m[1]});
     const cv::Scalar colour =
@@ -71,8 +71,9 @@ void draw_flesh_of_leg(Canvas& canvas, const FilmModel& model, const RunnerPictu
   const auto& bodies = picture.kinematics.bodies;
   const FilmModel::Leg& leg = model.legs[side];
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
-  const simulation::Planar hip = bodies[leg.femur].position, knee = bodies[leg.tibia].position,
-                           ankle = bodies[leg.talus].position;
+  const simulation::PlanarVector hip = bodies[leg.femur].position,
+                                 knee = bodies[leg.tibia].position,
+                                 ankle = bodies[leg.talus].position;
   const cv::Scalar skin = mixed(kFlesh, kSky, side == 1 ? 0.5 : 0);
   canvas.flesh(hip, knee, 0.085, 0.055, skin);
   canvas.flesh(knee, between(knee, ankle, 0.3), 0.055, 0.060, skin);
@@ -87,12 +88,13 @@ void draw_leg(Canvas& canvas, const FilmModel& model, const RunnerPicture& pictu
   const cv::Scalar fill = mixed(kBone, kSky, side == 1 ? kFar : 0),
                    rim = mixed(kBoneRim, kSky, side == 1 ? kFar : 0);
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
-  const simulation::Planar hip = bodies[leg.femur].position, knee = bodies[leg.tibia].position,
-                           ankle = bodies[leg.talus].position;
+  const simulation::PlanarVector hip = bodies[leg.femur].position,
+                                 knee = bodies[leg.tibia].position,
+                                 ankle = bodies[leg.talus].position;
   canvas.bone(hip, knee, 0.030, 0.016, fill, rim);
   canvas.bone(knee, ankle, 0.027, 0.013, fill, rim);
   for (const double grown : {0.006, 0.0}) {
-    const simulation::Planar sole_toe = at(toes, 0.075 + grown, -0.012 - grown);
+    const simulation::PlanarVector sole_toe = at(toes, 0.075 + grown, -0.012 - grown);
     canvas.shape({at(calcn, -0.012 - grown, 0.03),
                   at(calcn, -0.006, -0.012 - grown),
                   at(toes, 0, -0.014 - grown),
@@ -107,7 +109,7 @@ void draw_leg(Canvas& canvas, const FilmModel& model, const RunnerPicture& pictu
       canvas.disc(at(bodies[sphere.body], sphere.location_m[0], sphere.location_m[1]),
                   sphere.radius_m, mixed(rim, kInk, 0.15), 1);
   draw_muscles(canvas, model, picture, side);
-  for (const simulation::Planar& joint : {hip, knee, ankle}) {
+  for (const simulation::PlanarVector& joint : {hip, knee, ankle}) {
     canvas.disc(joint, 0.017, rim);
     canvas.disc(joint, 0.012, fill);
   }
@@ -117,7 +119,7 @@ void draw_trunk(Canvas& canvas, const FilmModel& model, const RunnerPicture& pic
   const auto& bodies = picture.kinematics.bodies;
   const Frame &pelvis = bodies[model.pelvis], &torso = bodies[model.torso],
               &head = bodies[model.head];
-  const simulation::Planar hip = bodies[model.legs[0].femur].position;
+  const simulation::PlanarVector hip = bodies[model.legs[0].femur].position;
   canvas.flesh(at(pelvis, -0.06, -0.03), at(torso, 0.01, 0.10), 0.105, 0.100, kFlesh);
   canvas.flesh(at(torso, 0.01, 0.10), at(torso, 0.015, 0.36), 0.100, 0.118, kFlesh);
   canvas.flesh(at(torso, 0.015, 0.36), at(torso, 0.0, 0.47), 0.118, 0.055, kFlesh);
@@ -126,7 +128,7 @@ void draw_trunk(Canvas& canvas, const FilmModel& model, const RunnerPicture& pic
   for (const double grown : {0.006, 0.0}) {
     const cv::Scalar colour = grown > 0 ? kBoneRim : mixed(kBone, kSky, 0.25);
     // Chest: an egg on the spine.
-    std::vector<simulation::Planar> chest;
+    std::vector<simulation::PlanarVector> chest;
     for (int i = 0; i < 32; ++i) {
       const double a = 2 * std::numbers::pi * i / 32;
       chest.push_back(at(torso, 0.020 + (0.092 - 0.012 * std::sin(a) + grown) * std::cos(a),
@@ -185,17 +187,17 @@ void draw_ground(Canvas& canvas, const RunnerPicture& picture) {
 
 /// The force of the ground on a foot, from under the foot.
 void draw_force(Canvas& canvas, const FilmModel& model, const RunnerPicture& picture, int side) {
-  const simulation::Planar force = picture.kinematics.ground_reaction_N[side];
+  const simulation::PlanarVector force = picture.kinematics.ground_reaction_N[side];
   if (force.y < 20) return;
   const auto& bodies = picture.kinematics.bodies;
-  const simulation::Planar heel = bodies[model.legs[side].calcn].position,
-                           ball = bodies[model.legs[side].toes].position;
-  const simulation::Planar from{0.5 * (heel.x + ball.x), 0},
+  const simulation::PlanarVector heel = bodies[model.legs[side].calcn].position,
+                                 ball = bodies[model.legs[side].toes].position;
+  const simulation::PlanarVector from{0.5 * (heel.x + ball.x), 0},
       to{from.x + force.x * kForce_m_N, force.y * kForce_m_N};
   const cv::Scalar green(70, 150, 40);
   canvas.line(from, to, 0.012, green);
   const double length = std::hypot(to.x - from.x, to.y);
-  const simulation::Planar d{(to.x - from.x) / length, to.y / length};
+  const simulation::PlanarVector d{(to.x - from.x) / length, to.y / length};
   canvas.shape({{to.x + 0.05 * d.x, to.y + 0.05 * d.y},
                 {to.x - 0.022 * d.y, to.y + 0.022 * d.x},
                 {to.x + 0.022 * d.y, to.y - 0.022 * d.x}},
@@ -210,8 +212,10 @@ void draw_figures(cv::Mat& image, const RunnerPicture& picture, const FilmOption
   const double size = options.height_px / 720.0;
   const int line = static_cast<int>(36 * size), margin = static_cast<int>(20 * size);
   write(image, fmt::format("{:5.2f} s", picture.state.time_s), {margin, line}, 0.9 * size);
-  write(image, fmt::format("{:5.2f} m", picture.state.q[1]), {margin, 2 * line}, 0.9 * size);
-  write(image, fmt::format("{:5.2f} m/s", picture.state.u[1]), {margin, 3 * line}, 0.9 * size);
+  write(image, fmt::format("{:5.2f} m", picture.state.q[simulation::kPelvisX]), {margin, 2 * line},
+        0.9 * size);
+  write(image, fmt::format("{:5.2f} m/s", picture.state.u[simulation::kPelvisX]),
+        {margin, 3 * line}, 0.9 * size);
   // The scale of the muscles' colours.
   const int width = static_cast<int>(150 * size),
             top = static_cast<int>(options.height_px - 24 * size),
@@ -261,16 +265,17 @@ FilmModel film_model(const osim::Model& model) {
   return film;
 }
 
-simulation::Planar film_place(const RunnerPicture& picture, const FilmOptions& options,
-                              simulation::Planar p_m) {
+simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOptions& options,
+                                    simulation::PlanarVector p_m) {
   const double scale = options.height_px / options.metres_high;
-  return {options.width_px / 2.0 + (p_m.x - picture.state.q[1]) * scale,
+  return {options.width_px / 2.0 + (p_m.x - picture.state.q[simulation::kPelvisX]) * scale,
           options.height_px * kGroundRow - p_m.y * scale};
 }
 
 cv::Mat film_frame(const FilmModel& model, const RunnerPicture& picture,
                    const FilmOptions& options) {
-  Canvas canvas({options.width_px, options.height_px}, options.metres_high, picture.state.q[1]);
+  Canvas canvas({options.width_px, options.height_px}, options.metres_high,
+                picture.state.q[simulation::kPelvisX]);
   draw_ground(canvas, picture);
   draw_flesh_of_leg(canvas, model, picture, 1);
   draw_leg(canvas, model, picture, 1);

@@ -53,7 +53,7 @@ cv::Mat film_frame(const FilmModel& model, const RunnerPicture& picture,
                    const FilmOptions& options = {});
 
 /// Where that frame shows a point of the ground's axes, px.
-simulation::Planar film_place(const RunnerPicture& picture, const FilmOptions& options,
-                              simulation::Planar p_m);
+simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOptions& options,
+                                    simulation::PlanarVector p_m);
 
 }  // namespace stride::film

@@ -21,7 +21,7 @@ cv::Scalar mixed(const cv::Scalar& a, const cv::Scalar& b, double weight) {
   return a * (1 - weight) + b * weight;
 }
 
-simulation::Planar between(simulation::Planar a, simulation::Planar b, double w) {
+simulation::PlanarVector between(simulation::PlanarVector a, simulation::PlanarVector b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y)};
 }
 
@@ -30,42 +30,43 @@ Canvas::Canvas(cv::Size size_px, double metres_high, double centre_x_m)
       scale_(kOversampling * size_px.height / metres_high),
       centre_x_m_(centre_x_m) {}
 
-cv::Point2d Canvas::place(simulation::Planar p) const {
+cv::Point2d Canvas::place(simulation::PlanarVector p) const {
   return {picture_.cols / 2 + (p.x - centre_x_m_) * scale_,
           picture_.rows * kGroundRow - p.y * scale_};
 }
 
-void Canvas::disc(simulation::Planar p, double radius_m, const cv::Scalar& colour, int rim_px) {
+void Canvas::disc(simulation::PlanarVector p, double radius_m, const cv::Scalar& colour,
+                  int rim_px) {
   cv::circle(picture_, fixed(place(p)),
              static_cast<int>(std::lround(radius_m * scale_ * (1 << kShift))), colour, rim_px,
              cv::LINE_AA, kShift);
 }
 
-void Canvas::shape(const std::vector<simulation::Planar>& outline, const cv::Scalar& colour) {
+void Canvas::shape(const std::vector<simulation::PlanarVector>& outline, const cv::Scalar& colour) {
   std::vector<cv::Point> points;
-  for (const simulation::Planar& p : outline) points.push_back(fixed(place(p)));
+  for (const simulation::PlanarVector& p : outline) points.push_back(fixed(place(p)));
   cv::fillPoly(picture_, std::vector<std::vector<cv::Point>>{points}, colour, cv::LINE_AA, kShift);
 }
 
-void Canvas::line(simulation::Planar a, simulation::Planar b, double width_m,
+void Canvas::line(simulation::PlanarVector a, simulation::PlanarVector b, double width_m,
                   const cv::Scalar& colour) {
   cv::line(picture_, fixed(place(a)), fixed(place(b)), colour,
            std::max(1, static_cast<int>(std::lround(width_m * scale_))), cv::LINE_AA, kShift);
 }
 
-void Canvas::bone(simulation::Planar a, simulation::Planar b, double end_m, double waist_m,
-                  const cv::Scalar& fill, const cv::Scalar& rim) {
+void Canvas::bone(simulation::PlanarVector a, simulation::PlanarVector b, double end_m,
+                  double waist_m, const cv::Scalar& fill, const cv::Scalar& rim) {
   const double length = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
-  const simulation::Planar n{-(b.y - a.y) / length, (b.x - a.x) / length};
+  const simulation::PlanarVector n{-(b.y - a.y) / length, (b.x - a.x) / length};
   for (const double grown : {0.006, 0.0}) {
     const cv::Scalar& colour = grown > 0 ? rim : fill;
-    std::vector<simulation::Planar> outline;
+    std::vector<simulation::PlanarVector> outline;
     for (const int side : {1, -1})
       for (int i = 0; i <= 16; ++i) {
         const double w = side > 0 ? i / 16.0 : 1 - i / 16.0;
         const double waist = std::pow(std::sin(std::numbers::pi * w), 0.6);
         const double half = end_m + (waist_m - end_m) * waist + grown;
-        const simulation::Planar p = between(a, b, w);
+        const simulation::PlanarVector p = between(a, b, w);
         outline.push_back({p.x + side * half * n.x, p.y + side * half * n.y});
       }
     disc(a, end_m * 1.15 + grown, colour);
@@ -74,10 +75,10 @@ void Canvas::bone(simulation::Planar a, simulation::Planar b, double end_m, doub
   }
 }
 
-void Canvas::flesh(simulation::Planar a, simulation::Planar b, double radius_a_m, double radius_b_m,
-                   const cv::Scalar& colour) {
+void Canvas::flesh(simulation::PlanarVector a, simulation::PlanarVector b, double radius_a_m,
+                   double radius_b_m, const cv::Scalar& colour) {
   const double length = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
-  const simulation::Planar n{-(b.y - a.y) / length, (b.x - a.x) / length};
+  const simulation::PlanarVector n{-(b.y - a.y) / length, (b.x - a.x) / length};
   const double ra = radius_a_m, rb = radius_b_m;
   disc(a, ra, colour);
   disc(b, rb, colour);
@@ -88,7 +89,7 @@ void Canvas::flesh(simulation::Planar a, simulation::Planar b, double radius_a_m
         colour);
 }
 
-void Canvas::muscle(const std::vector<simulation::Planar>& path, double belly_m,
+void Canvas::muscle(const std::vector<simulation::PlanarVector>& path, double belly_m,
                     const cv::Scalar& colour) {
   std::vector<double> from_start{0};
   for (std::size_t i = 1; i < path.size(); ++i)

@@ -12,7 +12,8 @@ inline constexpr double kGroundRow = 0.86;  // of the picture's height, where y 
 
 cv::Scalar mixed(const cv::Scalar& a, const cv::Scalar& b, double weight);
 
-simulation::Planar between(simulation::Planar a, simulation::Planar b, double weight);
+simulation::PlanarVector between(simulation::PlanarVector a, simulation::PlanarVector b,
+                                 double weight);
 
 /// A picture with the ground's axes: metres in, anti-aliased drawing out.
 class Canvas {
@@ -23,20 +24,21 @@ class Canvas {
   cv::Mat& picture() { return picture_; }
   double left_m() const { return centre_x_m_ - picture_.cols / 2 / scale_; }
   double right_m() const { return centre_x_m_ + picture_.cols / 2 / scale_; }
-  cv::Point2d place(simulation::Planar p) const;
+  cv::Point2d place(simulation::PlanarVector p) const;
 
-  void disc(simulation::Planar p, double radius_m, const cv::Scalar& colour, int rim_px = -1);
-  void shape(const std::vector<simulation::Planar>& outline, const cv::Scalar& colour);
-  void line(simulation::Planar a, simulation::Planar b, double width_m, const cv::Scalar& colour);
+  void disc(simulation::PlanarVector p, double radius_m, const cv::Scalar& colour, int rim_px = -1);
+  void shape(const std::vector<simulation::PlanarVector>& outline, const cv::Scalar& colour);
+  void line(simulation::PlanarVector a, simulation::PlanarVector b, double width_m,
+            const cv::Scalar& colour);
 
   /// A limb's bone from a to b, thicker at its ends, with a rim.
-  void bone(simulation::Planar a, simulation::Planar b, double end_m, double waist_m,
+  void bone(simulation::PlanarVector a, simulation::PlanarVector b, double end_m, double waist_m,
             const cv::Scalar& fill, const cv::Scalar& rim);
   /// What clothes the bones: a tapered piece of the body's outline.
-  void flesh(simulation::Planar a, simulation::Planar b, double radius_a_m, double radius_b_m,
-             const cv::Scalar& colour);
+  void flesh(simulation::PlanarVector a, simulation::PlanarVector b, double radius_a_m,
+             double radius_b_m, const cv::Scalar& colour);
   /// A thin tendon with a belly, along the points of a muscle's path.
-  void muscle(const std::vector<simulation::Planar>& path, double belly_m,
+  void muscle(const std::vector<simulation::PlanarVector>& path, double belly_m,
               const cv::Scalar& colour);
 
  private:

@@ -51,6 +51,10 @@ void Tensors::put(const std::string& name, std::int64_t value) {
   tensors[name] = std::move(tensor);
 }
 
+void Tensors::put_number(const std::string& name, double value) {
+  put(name, Eigen::VectorXd::Constant(1, value).eval());
+}
+
 void Tensors::put_bytes(const std::string& name, std::string_view bytes) {
   tensors[name] = {"U8", {static_cast<std::int64_t>(bytes.size())}, std::string(bytes)};
 }
@@ -85,6 +89,12 @@ std::int64_t Tensors::integer(const std::string& name) const {
   std::int64_t value = 0;
   std::memcpy(&value, tensor.bytes.data(), 8);
   return value;
+}
+
+double Tensors::number(const std::string& name) const {
+  Eigen::VectorXd value(1);
+  get(name, value);
+  return value[0];
 }
 
 const std::string& Tensors::bytes(const std::string& name) const { return find(name, "U8").bytes; }

@@ -29,6 +29,7 @@ class Tensors {
   template <typename Derived>
   void put(const std::string& name, const Eigen::DenseBase<Derived>& value);
   void put(const std::string& name, std::int64_t value);
+  void put_number(const std::string& name, double value);
   void put_bytes(const std::string& name, std::string_view bytes);
 
   /// Reads an array of known size. Throws Error naming file and tensor where it is missing, or of
@@ -36,6 +37,7 @@ class Tensors {
   template <typename Derived>
   void get(const std::string& name, Eigen::DenseBase<Derived>& value) const;
   std::int64_t integer(const std::string& name) const;
+  double number(const std::string& name) const;
   const std::string& bytes(const std::string& name) const;
   bool has(const std::string& name) const { return tensors.contains(name); }
   /// Number of elements.

@@ -6,7 +6,7 @@
 #include "train/environment/mirror.h"
 #include "train/ppo/rollout_batch.h"
 #include "train/ppo/scaled_critic.h"
-#include "train/training/ppo_options.h"
+#include "train/training/options.h"
 #include "train/training/thread_pool.h"
 
 namespace stride::ppo {

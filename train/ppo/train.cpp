@@ -30,17 +30,20 @@ Table new_ppo_curve() {
   return table;
 }
 
-std::vector<double> row_of(const Training& training,
-                           const std::vector<EpisodeSummary>& evaluation) {
-  double simulated_s = 0;
-  for (const Slot& slot : training.slots) simulated_s += slot.state().simulated_s;
-  std::vector<double> row = training::curve_row(training.progress, simulated_s, evaluation);
+std::vector<double> row_of(const training::CurveRow& shared, const Training& training) {
+  std::vector<double> row = shared.values();
   row.resize(kSharedColumns);
   const Sums& sums = training.sums;
   for (const double sum : {sums.kl, sums.entropy, sums.value_loss, sums.explained_variance})
     row.push_back(sums.batches > 0 ? sum / sums.batches : NAN);
   row.push_back(training.learner.rate());
   return row;
+}
+
+double simulated_s(const Training& training) {
+  double total = 0;
+  for (const Slot& slot : training.slots) total += slot.state().simulated_s;
+  return total;
 }
 
 /// Where the agent is evaluated: without chance, as the rules start an episode. A lane is a
@@ -116,8 +119,10 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
 
   const auto evaluate = [&] {
     const network::Policy<float> policy = policy_of(training);
-    std::vector<double> row = row_of(training, evaluator.evaluate(policy, threads));
-    summary.distance_m = row[6];
+    const training::CurveRow shared =
+        training::curve_row(progress, simulated_s(training), evaluator.evaluate(policy, threads));
+    summary.distance_m = shared.evaluation_distance_m;
+    std::vector<double> row = row_of(shared, training);
     const auto keep_as = [&](const char* name) {
       journal.keep([&] {
         network::save_policy(policy, training.feature_names, training.action_names,
@@ -129,11 +134,11 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
       progress.best_distance_m = summary.distance_m;
       keep_as("best.safetensors");
     }
-    progress.sums = {};
-    training.sums = {};
     ++progress.rows;
     progress.last_row_decisions = progress.decisions;
     journal.add_row(options, progress, std::move(row));
+    progress.sums = {};
+    training.sums = {};
   };
 
   RolloutBatch batch;
@@ -154,11 +159,14 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
   }
   try {
     save_checkpoint(training, run);
-    journal.save_rows();
+    summary.finished = progress.decisions >= options.run.decisions;
+    // After the checkpoint, so that a run that is continued with more decisions has no row that an
+    // uninterrupted one would not have.
+    if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
+    if (progress.rows > 0) journal.save_rows();
   } catch (const Error& error) {
     summary.unsaved = error.what();
   }
-  summary.finished = progress.decisions >= options.run.decisions;
   summary.progress = progress;
   return summary;
 }

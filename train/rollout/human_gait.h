@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 
 namespace stride::rollout {
 

@@ -1,11 +1,10 @@
 #include "train/rollout/rollout.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "calibrate/osim/storage.h"
 #include "extract/io/error.h"
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 #include "train/simulation/engine/runner_layout.h"
 
 namespace stride::rollout {
@@ -36,14 +35,6 @@ int body_of(BodyPart part, const osim::Model& model) {
       return model.body("head");
   }
   return -1;
-}
-
-/// The head of OpenSim's storage format.
-std::string storage_head(const char* name, std::size_t rows, std::size_t columns) {
-  return fmt::format(
-      "{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\nWritten by stride. SI units, rad.\n"
-      "endheader\n",
-      name, rows, columns);
 }
 
 }  // namespace
@@ -89,9 +80,9 @@ CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& mo
     sample.phase = strides - std::floor(strides);
     for (std::size_t i = 0; i < kCoordinateNames.size(); ++i)
       sample.coordinates[i] = frame.state.q[i];
-    const simulation::Planar origin = frame.kinematics.bodies[pelvis].position;
+    const simulation::PlanarVector origin = frame.kinematics.bodies[pelvis].position;
     for (const BodyPart part : kBodyParts) {
-      const simulation::Planar p =
+      const simulation::PlanarVector p =
           frame.kinematics.bodies[static_cast<std::size_t>(body_of(part, model))].position;
       sample.p_m[static_cast<std::size_t>(index(part))] = {p.x - origin.x, p.y - origin.y};
     }
@@ -103,34 +94,30 @@ CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& mo
 }
 
 std::string motion_file(const Rollout& rollout) {
-  std::string text =
-      storage_head("Coordinates", rollout.frames.size(), 1 + kCoordinateNames.size());
-  text += "time";
-  for (const char* name : kCoordinateNames) text += fmt::format("\t{}", name);
-  for (const RolloutFrame& frame : rollout.frames) {
-    text += fmt::format("\n{:.4f}", frame.state.time_s);
-    for (const double q : frame.state.q) text += fmt::format("\t{}", q);
-  }
-  return text + '\n';
+  osim::Storage storage{.name = "Coordinates", .columns = {}, .rows = {}};
+  storage.columns.assign(kCoordinateNames.begin(), kCoordinateNames.end());
+  for (const RolloutFrame& frame : rollout.frames)
+    storage.rows.push_back({frame.state.time_s, {frame.state.q.begin(), frame.state.q.end()}});
+  return osim::to_text(storage);
 }
 
 std::string states_file(const Rollout& rollout) {
-  std::string text =
-      storage_head("ModelStates", rollout.frames.size(),
-                   1 + 2 * kCoordinateNames.size() + 2 * simulation::muscle_names().size());
-  text += "time";
-  for (const char* name : kCoordinateNames) text += fmt::format("\t{}\t{}_u", name, name);
+  osim::Storage storage{.name = "ModelStates", .columns = {}, .rows = {}};
+  for (const std::string name : kCoordinateNames)
+    storage.columns.insert(storage.columns.end(), {name, name + "_u"});
   for (const std::string& muscle : simulation::muscle_names())
-    text += fmt::format("\t{0}.activation\t{0}.fiber_length", muscle);
+    storage.columns.insert(storage.columns.end(),
+                           {muscle + ".activation", muscle + ".fiber_length"});
   for (const RolloutFrame& frame : rollout.frames) {
     const simulation::RunnerState& state = frame.state;
-    text += fmt::format("\n{:.4f}", state.time_s);
+    osim::Storage::Row& row = storage.rows.emplace_back();
+    row.time_s = state.time_s;
     for (std::size_t i = 0; i < state.q.size(); ++i)
-      text += fmt::format("\t{}\t{}", state.q[i], state.u[i]);
+      row.values.insert(row.values.end(), {state.q[i], state.u[i]});
     for (std::size_t i = 0; i < state.activation.size(); ++i)
-      text += fmt::format("\t{}\t{}", state.activation[i], state.fiber_length_m[i]);
+      row.values.insert(row.values.end(), {state.activation[i], state.fiber_length_m[i]});
   }
-  return text + '\n';
+  return osim::to_text(storage);
 }
 
 template Rollout record_episode(const network::Policy<float>&, environment::RunnerEnvironment&,

@@ -1,6 +1,4 @@
 #include "train/simulation/bench.h"
-#include "train/simulation/engine/runner_layout.h"
-#include "train/simulation/make_engine.h"
 
 #include <time.h>
 #include <unistd.h>
@@ -12,6 +10,10 @@
 #include <memory>
 #include <random>
 #include <thread>
+
+#include "extract/io/random.h"
+#include "train/simulation/engine/runner_layout.h"
+#include "train/simulation/make_engine.h"
 
 namespace stride::simulation {
 namespace {
@@ -36,9 +38,6 @@ double resident_MiB() {
   statm >> total >> resident;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
-
-/// Of 53 bits, the same with every standard library.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// One engine that lives through one episode after another.
 class Runner {
@@ -91,7 +90,7 @@ class Runner {
       if (result_.failures++ == 0) result_.first_failure = report.failure;
       return false;
     }
-    const bool fell = engine_->state().q[2] < kFallHeight_m, late = step_ >= kEpisodeSteps;
+    const bool fell = engine_->state().q[kPelvisY] < kFallHeight_m, late = step_ >= kEpisodeSteps;
     result_.falls += fell;
     result_.time_limits += late && !fell;
     return !fell && !late;

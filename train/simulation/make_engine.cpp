@@ -1,7 +1,7 @@
 #include "train/simulation/make_engine.h"
 
 #include "extract/io/error.h"
-#include "train/simulation/planar/engine.h"
+#include "train/simulation/planar/planar_engine.h"
 #include "train/simulation/simbody/simbody_engine.h"
 
 namespace stride::simulation {

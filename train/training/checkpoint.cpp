@@ -10,13 +10,13 @@
 
 #include "extract/io/error.h"
 #include "train/network/safetensors.h"
+#include "train/training/replay_segments.h"
 
 namespace stride::training {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr Eigen::Index kLongestEpisode = 1'000'000;  // decisions
-constexpr std::int64_t kSegmentRecords = 200'000;    // at most, of one replay segment
 
 template <typename Scalar>
 using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
@@ -110,10 +110,13 @@ void put(network::Tensors& tensors, const std::string& name,
   tensors.put(name + ".actions", actions);
   tensors.put(name + ".noise", state.noise.x);
   tensors.put(name + ".perturbed", state.perturbed);
-  const Eigen::VectorXd numbers{{state.sigma_factor, state.simulated_s, state.episode.reward,
-                                 state.episode.distance_m, state.episode.time_s,
-                                 state.episode.fell ? 1.0 : 0.0, state.episode.failed ? 1.0 : 0.0}};
-  tensors.put(name + ".numbers", numbers);
+  tensors.put_number(name + ".sigma_factor", state.sigma_factor);
+  tensors.put_number(name + ".simulated_s", state.simulated_s);
+  tensors.put_number(name + ".episode.reward", state.episode.reward);
+  tensors.put_number(name + ".episode.distance_m", state.episode.distance_m);
+  tensors.put_number(name + ".episode.time_s", state.episode.time_s);
+  tensors.put(name + ".episode.fell", std::int64_t{state.episode.fell});
+  tensors.put(name + ".episode.failed", std::int64_t{state.episode.failed});
 }
 
 template <typename Scalar>
@@ -128,148 +131,81 @@ ddpg::ExplorerState<Scalar> get(const network::Tensors& tensors, const std::stri
   state.actions.assign(actions.begin(), actions.end());
   tensors.get(name + ".noise", state.noise.x);
   state.perturbed = vector_from<Scalar>(tensors, name + ".perturbed", actor_parameters);
-  Eigen::VectorXd numbers(7);
-  tensors.get(name + ".numbers", numbers);
-  state.sigma_factor = numbers[0];
-  state.simulated_s = numbers[1];
-  state.episode = {.reward = numbers[2],
-                   .distance_m = numbers[3],
-                   .time_s = numbers[4],
-                   .fell = numbers[5] != 0,
-                   .failed = numbers[6] != 0};
+  if (tensors.has(name + ".numbers")) {  // version 1
+    Eigen::VectorXd numbers(7);
+    tensors.get(name + ".numbers", numbers);
+    state.sigma_factor = numbers[0];
+    state.simulated_s = numbers[1];
+    state.episode = {.reward = numbers[2],
+                     .distance_m = numbers[3],
+                     .time_s = numbers[4],
+                     .fell = numbers[5] != 0,
+                     .failed = numbers[6] != 0};
+    return state;
+  }
+  state.sigma_factor = tensors.number(name + ".sigma_factor");
+  state.simulated_s = tensors.number(name + ".simulated_s");
+  state.episode = {.reward = tensors.number(name + ".episode.reward"),
+                   .distance_m = tensors.number(name + ".episode.distance_m"),
+                   .time_s = tensors.number(name + ".episode.time_s"),
+                   .fell = tensors.integer(name + ".episode.fell") != 0,
+                   .failed = tensors.integer(name + ".episode.failed") != 0};
   return state;
 }
 
 // ---- counters
 
-void put(network::Tensors& tensors, const Progress& progress) {
-  static_assert(std::is_trivially_copyable_v<Progress>);
-  tensors.put_bytes("progress", {reinterpret_cast<const char*>(&progress), sizeof progress});
+/// Calls visit(name, value) for each, in the order in which version 1 wrote their bytes.
+template <typename Visit>
+void visit_counters(Progress& p, const Visit& visit) {
+  visit("decisions", p.decisions);
+  visit("updates", p.updates);
+  visit("episodes", p.episodes);
+  visit("falls", p.falls);
+  visit("failures", p.failures);
+  visit("rows", p.rows);
+  visit("last_row_decisions", p.last_row_decisions);
+  visit("next_evaluation", p.next_evaluation);
+  visit("best_distance_m", p.best_distance_m);
+  visit("sums.episodes", p.sums.episodes);
+  visit("sums.distance_m", p.sums.distance_m);
+  visit("sums.reward", p.sums.reward);
+  visit("sums.updates", p.sums.updates);
+  visit("sums.critic_loss", p.sums.critic_loss);
+  visit("sums.q", p.sums.q);
+  visit("sums.target", p.sums.target);
+  visit("sums.actor_gradient", p.sums.actor_gradient);
+  visit("sums.critic_gradient", p.sums.critic_gradient);
+}
+
+void put(network::Tensors& tensors, Progress progress) {
+  visit_counters(progress, [&](const std::string& name, auto value) {
+    if constexpr (std::is_integral_v<decltype(value)>)
+      tensors.put("progress." + name, value);
+    else
+      tensors.put_number("progress." + name, value);
+  });
 }
 
 void get(const network::Tensors& tensors, Progress& progress) {
+  visit_counters(progress, [&](const std::string& name, auto& value) {
+    if constexpr (std::is_integral_v<std::remove_reference_t<decltype(value)>>)
+      value = tensors.integer("progress." + name);
+    else
+      value = tensors.number("progress." + name);
+  });
+}
+
+/// Version 1: the bytes of the struct.
+void get_version_1(const network::Tensors& tensors, Progress& progress) {
   const std::string& bytes = tensors.bytes("progress");
-  require(bytes.size() == sizeof progress, "{}: of another version of this program", tensors.file);
-  std::memcpy(&progress, bytes.data(), sizeof progress);
-}
-
-// ---- replay segments: the records of rounds [from, to), by round and environment
-
-struct Segment {
-  std::int64_t from = 0, to = 0;
-  fs::path file;
-};
-
-fs::path segment_file(const fs::path& run, std::int64_t from, std::int64_t to) {
-  return run / "replay" / fmt::format("{:012}-{:012}.safetensors", from, to);
-}
-
-std::vector<Segment> segments_of(const fs::path& run) {
-  std::vector<Segment> segments;
-  if (!fs::exists(run / "replay")) return segments;
-  for (const auto& entry : fs::directory_iterator(run / "replay")) {
-    Segment segment{.file = entry.path()};
-    long long from = 0, to = 0;
-    if (std::sscanf(entry.path().filename().c_str(), "%12lld-%12lld.safetensors", &from, &to) != 2)
-      continue;
-    segment.from = from;
-    segment.to = to;
-    segments.push_back(segment);
-  }
-  std::ranges::sort(segments, {}, &Segment::from);
-  return segments;
-}
-
-template <typename Column>
-void append(std::string& bytes, const Column& column) {
-  bytes.append(reinterpret_cast<const char*>(column.data()),
-               static_cast<std::size_t>(column.size()) * sizeof(*column.data()));
-}
-
-template <typename Scalar>
-void save_segment(const ddpg::ReplayBuffer<Scalar>& buffer, std::int64_t from, std::int64_t to,
-                  const fs::path& file) {
-  using Record = typename ddpg::ReplayBuffer<Scalar>::Record;
-  static_assert(std::is_trivially_copyable_v<Record>);
-  std::string features, actions, records;
-  for (std::int64_t round = from; round < to; ++round)
-    for (int e = 0; e < buffer.layout().environments; ++e) {
-      append(features, buffer.features(round, e));
-      append(actions, buffer.action(round, e));
-      records.append(reinterpret_cast<const char*>(&buffer.record(round, e)), sizeof(Record));
-    }
-  network::Tensors tensors;
-  tensors.put_bytes("features", features);
-  tensors.put_bytes("actions", actions);
-  tensors.put_bytes("records", records);
-  network::save(tensors, file);
-}
-
-template <typename Scalar>
-void load_segment(ddpg::ReplayBuffer<Scalar>& buffer, const Segment& segment) {
-  using Record = typename ddpg::ReplayBuffer<Scalar>::Record;
-  const network::Tensors tensors = network::load_tensors(segment.file);
-  const auto& layout = buffer.layout();
-  const auto count = static_cast<std::size_t>((segment.to - segment.from) * layout.environments);
-  const auto take = [&](const char* name, std::size_t size) {
-    const std::string& bytes = tensors.bytes(name);
-    require(bytes.size() == count * size, "{}: {} of {} bytes, {} are needed: of another run",
-            tensors.file, name, bytes.size(), count * size);
-    return bytes.data();
-  };
-  const std::size_t feature_bytes = static_cast<std::size_t>(layout.features) * sizeof(Scalar);
-  const std::size_t action_bytes = static_cast<std::size_t>(layout.actions) * sizeof(Scalar);
-  const char* features = take("features", feature_bytes);
-  const char* actions = take("actions", action_bytes);
-  const char* records = take("records", sizeof(Record));
-  for (std::int64_t round = segment.from; round < segment.to; ++round)
-    for (int e = 0; e < layout.environments; ++e) {
-      std::memcpy(buffer.features(round, e).data(), features, feature_bytes);
-      std::memcpy(buffer.action(round, e).data(), actions, action_bytes);
-      std::memcpy(static_cast<void*>(&buffer.record(round, e)), records, sizeof(Record));
-      const Record& record = buffer.record(round, e);
-      require(buffer.features(round, e).allFinite() && buffer.action(round, e).allFinite() &&
-                  std::isfinite(record.reward + record.phi + record.phi_mirrored) &&
-                  record.outcome <= ddpg::Outcome::ended,
-              "{}: the record of round {}, environment {} holds what is no number: damaged",
-              tensors.file, round, e);
-      features += feature_bytes;
-      actions += action_bytes;
-      records += sizeof(Record);
-    }
-}
-
-template <typename Scalar>
-void save_new_segments(const ddpg::ReplayBuffer<Scalar>& buffer, const fs::path& run) {
-  std::int64_t from = buffer.first_round();
-  for (const Segment& segment : segments_of(run)) from = std::max(from, segment.to);
-  const std::int64_t longest =
-      std::max<std::int64_t>(1, kSegmentRecords / buffer.layout().environments);
-  while (from < buffer.rounds()) {
-    const std::int64_t to = std::min(from + longest, buffer.rounds());
-    save_segment(buffer, from, to, segment_file(run, from, to));
-    from = to;
-  }
-}
-
-/// Rounds before the first kept one may be missing in the segments, none after it.
-template <typename Scalar>
-void load_segments(ddpg::ReplayBuffer<Scalar>& buffer, const fs::path& run, std::int64_t rounds) {
-  buffer.set_rounds(rounds);
-  std::int64_t known = buffer.first_round();
-  for (const Segment& segment : segments_of(run)) {
-    if (segment.from >= rounds) {  // written before a kill, after the checkpoint
-      fs::remove(segment.file);
-      continue;
-    }
-    require(segment.from <= known && segment.to <= rounds,
-            "{}: the rounds from {} on are missing in {}: the replay memory is not complete",
-            segment.file.string(), known, segment.file.parent_path().string());
-    load_segment(buffer, segment);
-    known = segment.to;
-  }
-  require(known == rounds, "{}: the rounds from {} to {} are missing", (run / "replay").string(),
-          known, rounds);
+  std::size_t at = 0;
+  visit_counters(progress, [&](const char*, auto& value) {
+    require(at + sizeof value <= bytes.size(), "{}: progress has {} bytes: damaged", tensors.file,
+            bytes.size());
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    at += sizeof value;
+  });
 }
 
 }  // namespace
@@ -280,7 +216,7 @@ template <typename Scalar>
 void save_checkpoint(const Training<Scalar>& training, const fs::path& run) {
   save_new_segments(training.buffer, run);
   network::Tensors tensors;
-  tensors.metadata = {{"format", "stride checkpoint"}, {"version", "1"}};
+  tensors.metadata = {{"format", "stride checkpoint"}, {"version", "2"}};
   tensors.put("rounds", training.buffer.rounds());
   put(tensors, training.progress);
   tensors.put_bytes("random", to_text(training.random));
@@ -292,18 +228,17 @@ void save_checkpoint(const Training<Scalar>& training, const fs::path& run) {
   for (std::size_t i = 0; i < training.explorers.size(); ++i)
     put(tensors, fmt::format("slot{}", i), training.explorers[i].state());
   network::save(tensors, checkpoint_file(run));
-
-  for (const Segment& segment : segments_of(run))
-    if (segment.to <= training.buffer.first_round()) fs::remove(segment.file);
+  remove_old_segments(training.buffer, run);
 }
 
 template <typename Scalar>
 void load_checkpoint(Training<Scalar>& training, const fs::path& run) {
   const network::Tensors tensors = network::load_tensors(checkpoint_file(run));
-  require(tensors.meta("format") == "stride checkpoint" && tensors.meta("version") == "1",
-          "{}: is a {} of version {}, a stride checkpoint of version 1 is needed", tensors.file,
-          tensors.meta("format"), tensors.meta("version"));
-  get(tensors, training.progress);
+  const std::string &format = tensors.meta("format"), &version = tensors.meta("version");
+  require(format == "stride checkpoint" && (version == "1" || version == "2"),
+          "{}: is a {} of version {}, a stride checkpoint of version 1 or 2 is needed",
+          tensors.file, format, version);
+  version == "1" ? get_version_1(tensors, training.progress) : get(tensors, training.progress);
   training.random = random_from(tensors.bytes("random"), tensors.file);
   get(tensors, training.agent);
   network::Normaliser::State normaliser = training.normaliser.state();

@@ -7,6 +7,32 @@
 namespace stride::training {
 namespace {
 
+struct Column {
+  const char* name;
+  double CurveRow::*value;
+};
+
+constexpr Column kColumns[] = {
+    {"decisions", &CurveRow::decisions},
+    {"simulated_s", &CurveRow::simulated_s},
+    {"updates", &CurveRow::updates},
+    {"episodes", &CurveRow::episodes},
+    {"falls", &CurveRow::falls},
+    {"failures", &CurveRow::failures},
+    {"evaluation_distance_m", &CurveRow::evaluation_distance_m},
+    {"evaluation_reward", &CurveRow::evaluation_reward},
+    {"evaluation_time_s", &CurveRow::evaluation_time_s},
+    {"evaluation_falls", &CurveRow::evaluation_falls},
+    {"training_distance_m", &CurveRow::training_distance_m},
+    {"training_reward", &CurveRow::training_reward},
+    {"critic_loss", &CurveRow::critic_loss},
+    {"q", &CurveRow::q},
+    {"target", &CurveRow::target},
+    {"actor_gradient", &CurveRow::actor_gradient},
+    {"critic_gradient", &CurveRow::critic_gradient},
+};
+static_assert(sizeof(CurveRow) == std::size(kColumns) * sizeof(double), "every value has a column");
+
 double mean(double sum, double count) {
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
@@ -18,54 +44,41 @@ Table new_curve() {
   table.format = "curve";
   table.metadata = {{"units", "s, m; rewards as of the environment"},
                     {"evaluation", "without noise"}};
-  table.columns = {"decisions",
-                   "simulated_s",
-                   "updates",
-                   "episodes",
-                   "falls",
-                   "failures",
-                   "evaluation_distance_m",
-                   "evaluation_reward",
-                   "evaluation_time_s",
-                   "evaluation_falls",
-                   "training_distance_m",
-                   "training_reward",
-                   "critic_loss",
-                   "q",
-                   "target",
-                   "actor_gradient",
-                   "critic_gradient"};
+  for (const Column& column : kColumns) table.columns.emplace_back(column.name);
   return table;
 }
 
-std::vector<double> curve_row(const Progress& progress, double simulated_s,
-                              const std::vector<network::EpisodeSummary>& evaluation) {
+std::vector<double> CurveRow::values() const {
+  std::vector<double> values;
+  for (const Column& column : kColumns) values.push_back(this->*column.value);
+  return values;
+}
+
+CurveRow curve_row(const Progress& progress, double simulated_s,
+                   const std::vector<network::EpisodeSummary>& evaluation) {
+  CurveRow row;
+  row.decisions = static_cast<double>(progress.decisions);
+  row.simulated_s = simulated_s;
+  row.updates = static_cast<double>(progress.updates);
+  row.episodes = static_cast<double>(progress.episodes);
+  row.falls = static_cast<double>(progress.falls);
+  row.failures = static_cast<double>(progress.failures);
   const auto n = static_cast<double>(evaluation.size());
-  double distance = 0, reward = 0, time = 0, falls = 0;
   for (const network::EpisodeSummary& episode : evaluation) {
-    distance += episode.distance_m / n;
-    reward += episode.reward / n;
-    time += episode.time_s / n;
-    falls += (episode.fell ? 1 : 0) / n;
+    row.evaluation_distance_m += episode.distance_m / n;
+    row.evaluation_reward += episode.reward / n;
+    row.evaluation_time_s += episode.time_s / n;
+    row.evaluation_falls += (episode.fell ? 1 : 0) / n;
   }
   const Progress::Sums& sums = progress.sums;
-  return {static_cast<double>(progress.decisions),
-          simulated_s,
-          static_cast<double>(progress.updates),
-          static_cast<double>(progress.episodes),
-          static_cast<double>(progress.falls),
-          static_cast<double>(progress.failures),
-          distance,
-          reward,
-          time,
-          falls,
-          mean(sums.distance_m, sums.episodes),
-          mean(sums.reward, sums.episodes),
-          mean(sums.critic_loss, sums.updates),
-          mean(sums.q, sums.updates),
-          mean(sums.target, sums.updates),
-          mean(sums.actor_gradient, sums.updates),
-          mean(sums.critic_gradient, sums.updates)};
+  row.training_distance_m = mean(sums.distance_m, sums.episodes);
+  row.training_reward = mean(sums.reward, sums.episodes);
+  row.critic_loss = mean(sums.critic_loss, sums.updates);
+  row.q = mean(sums.q, sums.updates);
+  row.target = mean(sums.target, sums.updates);
+  row.actor_gradient = mean(sums.actor_gradient, sums.updates);
+  row.critic_gradient = mean(sums.critic_gradient, sums.updates);
+  return row;
 }
 
 Table new_timing() {

@@ -14,8 +14,20 @@ namespace stride::training {
 /// training_reward (means over the episodes with noise that ended since the last row; empty: none);
 /// critic_loss, q, target, actor_gradient, critic_gradient (means over the updates since then).
 Table new_curve();
-std::vector<double> curve_row(const Progress& progress, double simulated_s,
-                              const std::vector<network::EpisodeSummary>& evaluation);
+
+/// A row of the curve. Its columns are in the order and of the names of the members.
+struct CurveRow {
+  double decisions = 0, simulated_s = 0, updates = 0, episodes = 0, falls = 0, failures = 0;
+  double evaluation_distance_m = 0, evaluation_reward = 0, evaluation_time_s = 0,
+         evaluation_falls = 0;
+  double training_distance_m = 0, training_reward = 0;
+  double critic_loss = 0, q = 0, target = 0, actor_gradient = 0, critic_gradient = 0;
+
+  std::vector<double> values() const;
+};
+
+CurveRow curve_row(const Progress& progress, double simulated_s,
+                   const std::vector<network::EpisodeSummary>& evaluation);
 
 /// timing.csv, `# stride timing 1`: decisions, wall_s (of training, pauses excluded), steps_per_s,
 /// updates_per_s (since the row before).

@@ -33,7 +33,7 @@ Journal::Journal(const std::filesystem::path& run, const Table& curve, const Pro
   if (progress.rows > 0) {
     curve_ = load_rows(run / "curve.csv", curve_, progress.rows);
     timing_ = load_rows(run / "timing.csv", timing_, progress.rows);
-    wall_before_s_ = timing_.rows.back()[1];
+    wall_before_s_ = timing_.rows.back()[timing_.column("wall_s")];
   }
   last_decisions_ = progress.decisions;
   last_updates_ = progress.updates;
@@ -45,9 +45,9 @@ void Journal::add_row(const TrainOptions& options, const Progress& progress,
   const auto decisions = static_cast<double>(progress.decisions - last_decisions_);
   const auto updates = static_cast<double>(progress.updates - last_updates_);
   const double steps_per_s = decisions * options.run.action_repeat / s;
-  timing_.rows.push_back(
-      {row[0], wall_before_s_ + seconds_since(start_), steps_per_s, updates / s});
-  distance_m_ = row[6];
+  timing_.rows.push_back({static_cast<double>(progress.decisions),
+                          wall_before_s_ + seconds_since(start_), steps_per_s, updates / s});
+  distance_m_ = row[curve_.column("evaluation_distance_m")];
   curve_.rows.push_back(std::move(row));
   keep([&] { save_rows(); });
   last_row_ = Clock::now();

@@ -21,7 +21,7 @@ class Journal {
   Journal(const std::filesystem::path& run, const Table& curve, const Progress& progress,
           std::FILE* messages);
 
-  /// A row of the curve, whose column 6 is the distance of the evaluation.
+  /// A row of the curve, which has a column evaluation_distance_m.
   void add_row(const TrainOptions& options, const Progress& progress, std::vector<double> row);
 
   /// Does what writes to the disk; a failure is reported, and training goes on.

@@ -152,9 +152,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
 
   const auto evaluate = [&] {
     const network::Policy<Scalar> policy = policy_of(training, options);
-    std::vector<double> row =
-        curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
-    summary.distance_m = row[6];
+    const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
+    summary.distance_m = row.evaluation_distance_m;
     const auto keep_as = [&](const char* name) {
       journal.keep([&] {
         network::save_policy(policy, training.feature_names, training.action_names,
@@ -169,7 +168,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     progress.sums = {};
     ++progress.rows;
     progress.last_row_decisions = progress.decisions;
-    journal.add_row(options, progress, std::move(row));
+    journal.add_row(options, progress, row.values());
   };
 
   ddpg::Batch<Scalar> batch;

@@ -143,10 +143,10 @@ TEST_P(Runner, WhatCannotBeIntegratedIsAFallThatIsCounted) {
 TEST_P(Runner, AStateBeyondReasonIsAFailureAndNotAnException) {
   const auto engine = this->engine();
   simulation::RunnerState state = simulation::default_state(model_);
-  state.u[4] = 1e200;
+  state.u[simulation::kKneeRight] = 1e200;
   engine->set_state(state);
   EXPECT_FALSE(engine->advance({}, 0.01).ok);
-  state.u[4] = std::numeric_limits<double>::quiet_NaN();
+  state.u[simulation::kKneeRight] = std::numeric_limits<double>::quiet_NaN();
   engine->set_state(state);
   EXPECT_FALSE(engine->advance({}, 0.01).ok);
   simulation::EngineOptions few;

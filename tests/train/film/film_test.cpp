@@ -17,7 +17,7 @@ film::RunnerPicture running(const osim::Model& model) {
   const auto engine = simulation::make_engine("simbody", model);
   simulation::RunnerState state = simulation::default_state(model);
   state.q = {-0.1, 12.3, 0.93, 0.7, -0.9, 0.1, -0.2, -1.2, -0.2};
-  state.u[1] = 3.5;
+  state.u[simulation::kPelvisX] = 3.5;
   engine->set_state(state);
   film::RunnerPicture picture{engine->state(), engine->kinematics(), {}};
   return picture;
@@ -28,7 +28,7 @@ const osim::Model& runner() {
   return model;
 }
 
-cv::Vec3b colour_at(const cv::Mat& frame, simulation::Planar p) {
+cv::Vec3b colour_at(const cv::Mat& frame, simulation::PlanarVector p) {
   return frame.at<cv::Vec3b>(static_cast<int>(std::lround(p.y)),
                              static_cast<int>(std::lround(p.x)));
 }
@@ -52,7 +52,7 @@ TEST(Film, ShowsJointsWhereTheSimulationHasThem) {
   ASSERT_EQ(frame.size(), cv::Size(640, 360));
   // A near joint is a bright disc of 1.2 cm with a darker rim.
   for (const int body : {model.legs[0].tibia, model.legs[0].talus}) {
-    const simulation::Planar p =
+    const simulation::PlanarVector p =
         film::film_place(picture, options, picture.kinematics.bodies[body].position);
     EXPECT_GT(cv::norm(colour_at(frame, p)), 320) << body;
     EXPECT_LT(cv::norm(colour_at(frame, {p.x + 2.6, p.y})), cv::norm(colour_at(frame, p)));
@@ -78,11 +78,11 @@ TEST(Film, ShowsObstaclesAndTheGroundMovingUnderTheRunner) {
   const cv::Mat without = film::film_frame(model, picture, options);
   picture.obstacles = {{13.6, 0.02, 0.1}};
   const cv::Mat with = film::film_frame(model, picture, options);
-  const simulation::Planar p = film::film_place(picture, options, {13.6, 0.05});
+  const simulation::PlanarVector p = film::film_place(picture, options, {13.6, 0.05});
   EXPECT_GT(cv::norm(colour_at(with, p), colour_at(without, p)), 40);
   // The same pose half a metre on: another place on the ground, the same place in the picture.
   picture.obstacles.clear();
-  picture.state.q[1] += 0.5;
+  picture.state.q[simulation::kPelvisX] += 0.5;
   for (auto& body : picture.kinematics.bodies) body.position.x += 0.5;
   const cv::Mat later = film::film_frame(model, picture, options);
   const cv::Rect ground(0, 320, 640, 20), trunk(300, 90, 40, 60);

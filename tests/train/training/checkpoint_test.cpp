@@ -63,10 +63,14 @@ class Checkpoint : public ::testing::Test {
 
 TEST_F(Checkpoint, OfAnotherVersionIsRefused) {
   const fs::path file = training::checkpoint_file(folder_.path());
-  expect_refused("a stride checkpoint of version 1 is needed", file,
-                 [](network::Tensors& t) { t.metadata["version"] = "2"; });
-  expect_refused("of another version", file,
-                 [](network::Tensors& t) { t.put_bytes("progress", "short"); });
+  expect_refused("a stride checkpoint of version 1 or 2 is needed", file,
+                 [](network::Tensors& t) { t.metadata["version"] = "3"; });
+  expect_refused("'progress.updates' is missing", file,
+                 [](network::Tensors& t) { t.tensors.erase("progress.updates"); });
+  expect_refused("progress has 5 bytes", file, [](network::Tensors& t) {
+    t.metadata["version"] = "1";
+    t.put_bytes("progress", "short");
+  });
 }
 
 TEST_F(Checkpoint, OfAnotherModelIsRefused) {
@@ -109,8 +113,9 @@ TEST_F(Checkpoint, WhosePartsDoNotFitIsRefused) {
     std::string text = bytes.substr(0, bytes.find_last_of(' ')) + " 100000";
     t.put_bytes("random", text);
   });
-  expect_refused("of another run", segment(),
-                 [](network::Tensors& t) { t.put_bytes("actions", "abc"); });
+  for (const char* bytes : {"actions", "outcome", "records"})
+    expect_refused("of another run", segment(),
+                   [&](network::Tensors& t) { t.put_bytes(bytes, "abc"); });
 }
 
 }  // namespace

@@ -1,6 +1,12 @@
 #include "train/training/options.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
@@ -69,6 +75,84 @@ TEST(Options, PresetsAreValidAndAnUnknownOneIsNamed) {
   }
   EXPECT_ERROR(training::preset_file("fast"),
                "preset 'fast': must be one of demo, paper, shaping, stride");
+}
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> presets() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(STRIDE_SOURCE_DIR "/train/presets"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+TEST(Options, PresetsSayOnlyWhatDiffersFromTheDefaults) {
+  const std::string defaults = training::to_toml({}, "");
+  for (const fs::path& file : presets())
+    for (const TomlSetting& setting : load_toml(file)) {
+      training::TrainOptions options;
+      training::set_options({setting}, file.string(), options);
+      EXPECT_NE(training::to_toml(options, ""), defaults)
+          << file << ": " << setting.key() << " is as by default: leave it out";
+    }
+}
+
+/// The settings as to_toml() writes them: [section], then a line `name = value  # meaning` each.
+struct Line {
+  std::string key, value, meaning;
+};
+
+std::vector<Line> lines_of(const training::TrainOptions& options) {
+  std::vector<Line> lines;
+  std::istringstream text(training::to_toml(options, ""));
+  std::string section;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with('[')) section = line.substr(1, line.size() - 2);
+    const auto equals = line.find(" = "), hash = line.find("  # ");
+    if (equals == std::string::npos) continue;
+    lines.push_back({section + "." + line.substr(0, equals),
+                     line.substr(equals + 3, hash == std::string::npos ? hash : hash - equals - 3),
+                     hash == std::string::npos ? "" : line.substr(hash + 4)});
+  }
+  return lines;
+}
+
+/// train/presets/settings.md.
+std::string settings_table() {
+  std::string text =
+      "Every setting of a run, its default, and what the presets make of it. Written by\n"
+      "`STRIDE_WRITE_SETTINGS=1 train_learning_test "
+      "--gtest_filter=Options.TableIsThatOfThePresets`.\n"
+      "\n| setting | default |";
+  std::vector<std::vector<Line>> columns{lines_of({})};
+  for (const fs::path& file : presets()) {
+    training::TrainOptions options;
+    training::read_toml(file, options);
+    const std::vector<Line> lines = lines_of(options);
+    if (training::to_toml(options, "") == training::to_toml({}, "")) continue;
+    columns.push_back(lines);
+    text += fmt::format(" {} |", file.stem().string());
+  }
+  text += " |\n|---|";
+  for (std::size_t i = 0; i < columns.size(); ++i) text += "---|";
+  text += "---|\n";
+  for (std::size_t i = 0; i < columns[0].size(); ++i) {
+    const Line& line = columns[0][i];
+    text += fmt::format("| `{}` |", line.key);
+    for (const auto& column : columns)
+      text += &column == &columns[0] || column[i].value != line.value
+                  ? fmt::format(" {} |", column[i].value)
+                  : " |";
+    text += fmt::format(" {} |\n", line.meaning);
+  }
+  return text;
+}
+
+TEST(Options, TableIsThatOfThePresets) {
+  const fs::path file = STRIDE_SOURCE_DIR "/train/presets/settings.md";
+  if (std::getenv("STRIDE_WRITE_SETTINGS")) write_file_atomically(file, settings_table());
+  EXPECT_EQ(read_file(file), settings_table());
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ Reward step_reward(double previous_pelvis_x, const simulation::RunnerState& stat
                    const simulation::RunnerKinematics& kinematics) {
   double squares = 0;
   for (double torque : kinematics.limit_torque_Nm) squares += torque * torque;
-  return {state.q[1] - previous_pelvis_x, -1e-7 * std::sqrt(squares)};
+  return {state.q[simulation::kPelvisX] - previous_pelvis_x, -1e-7 * std::sqrt(squares)};
 }
 
 }  // namespace stride::competition

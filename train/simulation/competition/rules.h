@@ -63,7 +63,9 @@ Reward step_reward(double previous_pelvis_x, const simulation::RunnerState& stat
 
 /// Below this height of the pelvis, m, the runner has fallen.
 inline constexpr double kFallHeight_m = 0.65;
-inline bool has_fallen(const simulation::RunnerState& state) { return state.q[2] < kFallHeight_m; }
+inline bool has_fallen(const simulation::RunnerState& state) {
+  return state.q[simulation::kPelvisY] < kFallHeight_m;
+}
 
 inline constexpr double kStep_s = 0.01;
 inline constexpr int kMaxSteps = 1000;

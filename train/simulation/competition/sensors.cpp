@@ -75,7 +75,7 @@ void Sensors::read(const simulation::RunnerState& state,
   values = std::copy(q.begin() + 3, q.end(), values);
   values = std::copy(u.begin() + 3, u.end(), values);
 
-  simulation::Planar com = kinematics.com, com_velocity = kinematics.com_velocity;
+  simulation::PlanarVector com = kinematics.com, com_velocity = kinematics.com_velocity;
   if (rules == Rules::nips2017) {  // each of the competition's obstacles weighs 0.1 g
     constexpr double kObstacle_kg = 1e-4;
     const int used = static_cast<int>(scene.obstacles.size());
@@ -94,7 +94,7 @@ void Sensors::read(const simulation::RunnerState& state,
   };
   for (std::size_t i = 0; i < kBodiesOfTheCompetition; ++i)
     put({frame(i).position.x, frame(i).position.y});
-  const simulation::Obstacle next = next_obstacle(scene, q[1]);
+  const simulation::Obstacle next = next_obstacle(scene, q[simulation::kPelvisX]);
   put({scene.strength_l, scene.strength_r, next.x_m, next.y_m, next.radius_m});
   for (std::size_t i = 0; i < kBodiesOfTheCompetition; ++i)
     put({frame(i).velocity.x, frame(i).velocity.y});

@@ -12,10 +12,22 @@
 
 namespace stride::simulation {
 
-inline constexpr int kCoordinates =
-    9;  // pelvis_tilt, pelvis_tx, pelvis_ty, hip, knee, ankle of the right, of the left leg
-inline constexpr int kMuscles =
-    18;  // nine of the right leg, nine of the left, in the competition's order
+/// The runner's coordinates in the order of RunnerState::q. Angles in rad; x is the way of running,
+/// y up, m.
+enum Coordinate : int {
+  kPelvisTilt,
+  kPelvisX,
+  kPelvisY,
+  kHipRight,
+  kKneeRight,
+  kAnkleRight,
+  kHipLeft,
+  kKneeLeft,
+  kAnkleLeft
+};
+inline constexpr int kCoordinates = kAnkleLeft + 1;
+/// Of a leg, and of the runner: first the right leg, then the left, in the competition's order.
+inline constexpr int kMusclesOfLeg = 9, kMuscles = 2 * kMusclesOfLeg;
 
 using Excitations = std::array<double, kMuscles>;
 
@@ -33,22 +45,22 @@ struct RunnerDerivative {
   std::array<double, kMuscles> activation_rate{}, fiber_velocity_m_s{};
 };
 
-struct Planar {
+struct PlanarVector {
   double x = 0, y = 0;
 };
 
 /// Quantities that follow from a state: origins of bodies in the ground (m, m/s), forces (N, N·m).
 struct RunnerKinematics {
   struct Frame {
-    Planar position, velocity;
+    PlanarVector position, velocity;
     double angle_rad = 0, omega_rad_s = 0;  // about z
   };
   std::vector<Frame> bodies;  // in the order of Model::bodies
-  Planar com, com_velocity;
+  PlanarVector com, com_velocity;
   std::array<double, kMuscles> tendon_force_N{}, muscle_length_m{};
-  std::array<Planar, 2> ground_reaction_N{};  // right foot, left foot: on the foot
-  std::array<double, 6> limit_torque_Nm{};    // in the order of Model::limits
-  double energy_J = 0;                        // kinetic + gravitational
+  std::array<PlanarVector, 2> ground_reaction_N{};  // right foot, left foot: on the foot
+  std::array<double, 6> limit_torque_Nm{};          // in the order of Model::limits
+  double energy_J = 0;                              // kinetic + gravitational
 };
 
 /// A sphere fixed in the ground at z = 0, which meets the spheres of the feet without friction.

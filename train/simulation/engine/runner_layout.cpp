@@ -9,11 +9,12 @@ namespace stride::simulation {
 
 const std::array<std::string, kMuscles>& muscle_names() {
   static const std::array<std::string, kMuscles> names = [] {
-    const char* of_a_leg[] = {"hamstrings", "bifemsh", "glut_max", "iliopsoas", "rect_fem",
-                              "vasti",      "gastroc", "soleus",   "tib_ant"};
+    constexpr const char* kOfLeg[] = {"hamstrings", "bifemsh", "glut_max", "iliopsoas", "rect_fem",
+                                      "vasti",      "gastroc", "soleus",   "tib_ant"};
+    static_assert(std::size(kOfLeg) == kMusclesOfLeg, "every muscle of a leg has a name");
     std::array<std::string, kMuscles> all;
     for (int i = 0; i < kMuscles; ++i)
-      all[i] = std::string(of_a_leg[i % 9]) + (i < 9 ? "_r" : "_l");
+      all[i] = std::string(kOfLeg[i % kMusclesOfLeg]) + (i < kMusclesOfLeg ? "_r" : "_l");
     return all;
   }();
   return names;
@@ -44,14 +45,14 @@ RunnerLayout runner_layout(const osim::Model& model) {
 
 Excitations mirrored(const Excitations& excitations) {
   Excitations result = excitations;
-  std::rotate(result.begin(), result.begin() + kMuscles / 2, result.end());
+  std::rotate(result.begin(), result.begin() + kMusclesOfLeg, result.end());
   return result;
 }
 
 RunnerState mirrored(const RunnerState& state) {
   RunnerState result = state;
-  std::swap_ranges(result.q.begin() + 3, result.q.begin() + 6, result.q.begin() + 6);
-  std::swap_ranges(result.u.begin() + 3, result.u.begin() + 6, result.u.begin() + 6);
+  for (auto* each : {&result.q, &result.u})
+    std::swap_ranges(each->begin() + kHipRight, each->begin() + kHipLeft, each->begin() + kHipLeft);
   result.activation = mirrored(state.activation);
   result.fiber_length_m = mirrored(state.fiber_length_m);
   return result;

@@ -25,7 +25,7 @@ struct PlacedRunner {
   }
 
   /// Velocity of the body's material that is at a point of the ground's axes.
-  simulation::Planar velocity(int body, const osim::Vec3& point_m) const {
+  simulation::PlanarVector velocity(int body, const osim::Vec3& point_m) const {
     if (body < 0) return {};
     const BodyFrame& f = frames[body];
     return {f.vx_m_s - f.omega_rad_s * (point_m[1] - f.origin_m[1]),

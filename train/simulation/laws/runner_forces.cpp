@@ -83,8 +83,8 @@ void RunnerForces::add_muscle(int i, const PlacedRunner& runner, double activati
 }
 
 /// Returns the ground's reaction on the foot.
-simulation::Planar RunnerForces::add_foot(const PlacedRunner& runner, const Foot& foot) {
-  simulation::Planar reaction;
+simulation::PlanarVector RunnerForces::add_foot(const PlacedRunner& runner, const Foot& foot) {
+  simulation::PlanarVector reaction;
   const auto sphere = [&](std::size_t n) -> const osim::ContactSphere& {
     return model_.spheres[foot.spheres[n % foot.spheres.size()]];
   };
@@ -101,7 +101,7 @@ simulation::Planar RunnerForces::add_foot(const PlacedRunner& runner, const Foot
     const double depth = obstacle_contact.radius_m - (point[1] - foot.floor_m);
     if (depth <= 0) continue;
     point[1] = foot.floor_m - depth / 2;
-    const simulation::Planar velocity = runner.velocity(obstacle_contact.body, point);
+    const simulation::PlanarVector velocity = runner.velocity(obstacle_contact.body, point);
     const double normal = normal_force(foot.law, obstacle_contact.radius_m, depth, -velocity.y);
     if (normal <= 0 && options_.drop_contacts) break;
     if (normal <= 0) continue;
@@ -126,7 +126,7 @@ void RunnerForces::add_obstacle(const PlacedRunner& runner,
     const double nx = away[0] / distance, ny = away[1] / distance;
     const double reach = at.radius_m - depth / 2;  // half-way in depth
     const osim::Vec3 point{at.x_m + nx * reach, at.y_m + ny * reach, 0};
-    const simulation::Planar velocity = runner.velocity(sphere.body, point);
+    const simulation::PlanarVector velocity = runner.velocity(sphere.body, point);
     const double radius = at.radius_m * sphere.radius_m / (at.radius_m + sphere.radius_m);
     const double approach = -(velocity.x * nx + velocity.y * ny);
     const double force = std::max(normal_force(obstacle_contact.law, radius, depth, approach), 0.0);
@@ -143,7 +143,7 @@ const RunnerForces::Result& RunnerForces::evaluate(const PlacedRunner& runner,
   for (int i = 0; i < simulation::kMuscles; ++i)
     add_muscle(i, runner, activation[i], fiber_length_m[i]);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
-    const simulation::Planar reaction = add_foot(runner, feet_[i]);
+    const simulation::PlanarVector reaction = add_foot(runner, feet_[i]);
     if (i < result_.ground_reaction_N.size()) result_.ground_reaction_N[i] = reaction;
   }
   for (const ContactObstacle& obstacle_contact : contact_obstacles_)

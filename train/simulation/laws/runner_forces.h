@@ -35,7 +35,7 @@ class RunnerForces {
     std::vector<double> on_coordinate;  // of Model::coordinates, beside what acts on the bodies
     std::array<double, simulation::kMuscles> muscle_length_m{}, tendon_force_N{},
         fiber_velocity_m_s{};
-    std::array<simulation::Planar, 2> ground_reaction_N{};
+    std::array<simulation::PlanarVector, 2> ground_reaction_N{};
     std::array<double, 6> limit_torque_Nm{};
   };
 
@@ -69,7 +69,7 @@ class RunnerForces {
   void push(const PlacedRunner& runner, int body, const osim::Vec3& point, double fx, double fy);
   void add_gravity(const PlacedRunner& runner);
   void add_muscle(int i, const PlacedRunner& runner, double activation, double fiber_length_m);
-  simulation::Planar add_foot(const PlacedRunner& runner, const Foot& foot);
+  simulation::PlanarVector add_foot(const PlacedRunner& runner, const Foot& foot);
   void add_obstacle(const PlacedRunner& runner, const ContactObstacle& obstacle_contact);
 
   osim::Model model_;

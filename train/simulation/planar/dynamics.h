@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "train/simulation/engine/engine.h"
-#include "train/simulation/planar/contact.h"
 #include "train/simulation/planar/kinematics.h"
-#include "train/simulation/planar/model.h"
+#include "train/simulation/planar/planar_contact.h"
+#include "train/simulation/planar/planar_model.h"
 #include "train/simulation/planar/state.h"
 
 namespace stride::planar {
@@ -25,7 +25,7 @@ class PlanarDynamics {
   /// What an evaluation leaves behind for observers.
   struct Forces {
     Fibers tendon_N{}, path_m{};
-    std::array<simulation::Planar, PlanarModel::kLegs> ground_N{};
+    std::array<simulation::PlanarVector, PlanarModel::kLegs> ground_N{};
   };
 
   PlanarDynamics(PlanarModel model, const simulation::EngineOptions& options);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "train/simulation/planar/model.h"
+#include "train/simulation/planar/planar_model.h"
 #include "train/simulation/planar/state.h"
 #include "train/simulation/simd/pair.h"
 

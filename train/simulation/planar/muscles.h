@@ -1,6 +1,6 @@
 #pragma once
 
-#include "train/simulation/planar/model.h"
+#include "train/simulation/planar/planar_model.h"
 
 namespace stride::planar {
 

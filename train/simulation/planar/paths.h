@@ -4,7 +4,7 @@
 
 #include "calibrate/osim/simm_spline.h"
 #include "train/simulation/engine/runner_layout.h"
-#include "train/simulation/planar/model.h"
+#include "train/simulation/planar/planar_model.h"
 
 namespace stride::planar {
 

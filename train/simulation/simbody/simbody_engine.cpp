@@ -231,7 +231,7 @@ simulation::RunnerKinematics SimbodyEngine::kinematics() {
                         frame.omega_rad_s});
     const osim::Body& body = model_.bodies[i];
     const osim::Vec3 com = runner_.point(i, body.mass_center_m);
-    const simulation::Planar velocity = runner_.velocity(i, com);
+    const simulation::PlanarVector velocity = runner_.velocity(i, com);
     mass += body.mass_kg;
     k.com.x += body.mass_kg * com[0], k.com.y += body.mass_kg * com[1];
     k.com_velocity.x += body.mass_kg * velocity.x, k.com_velocity.y += body.mass_kg * velocity.y;

@@ -102,26 +102,26 @@ TEST_P(EngineUnderRules, ObstaclesPushAsTheCompetitionsDid) {
     const double toe_y =
         frame.position.y + 0.03 * std::sin(frame.angle_rad) + 0.04 * std::cos(frame.angle_rad);
     simulation::RunnerState lifted = state;
-    lifted.q[2] += 1;   // off the ground
-    lifted.q[6] = 1.5;  // the left leg out of the way
+    lifted.q[simulation::kPelvisY] += 1;   // off the ground
+    lifted.q[simulation::kHipLeft] = 1.5;  // the left leg out of the way
     engine->set_state(lifted);
     const auto force = [&] {
       const auto udot = engine->derivative({}).udot;
       const auto mass = engine->mass_matrix();
-      simulation::Planar sum;
+      simulation::PlanarVector sum;
       for (int j = 0; j < simulation::kCoordinates; ++j) {
         sum.x += mass[1 * simulation::kCoordinates + j] * udot[j];
         sum.y += mass[2 * simulation::kCoordinates + j] * udot[j];
       }
       return sum;
     };
-    const simulation::Planar without = force();
+    const simulation::PlanarVector without = force();
     const double radius = recorded.number(row, "obst_r_requested_m");
     engine->set_obstacles(
         {{toe_x + recorded.number(row, "obst_x_m") - recorded.number(row, "toe_cx_m"),
           1 + toe_y + recorded.number(row, "obst_y_m") - recorded.number(row, "toe_cy_m"),
           radius}});
-    const simulation::Planar with = force();
+    const simulation::PlanarVector with = force();
     EXPECT_TRUE(close(with.x - without.x, recorded.number(row, "foot_r_block_Fx_N"), 1e-8, 1e-4))
         << "row " << row;
     EXPECT_TRUE(close(with.y - without.y, recorded.number(row, "foot_r_block_Fy_N"), 1e-8, 1e-4))
@@ -135,7 +135,7 @@ TEST_P(EngineUnderRules, ObstaclesHaveTheirOwnSizeWhenClean) {
   // A toe 0.14 m from the obstacle's centre: within reach of a ball of 0.1 m, not of 0.05 m, and
   // pushed harder by a ball of 0.12 m.
   simulation::RunnerState state = simulation::default_state(model_);
-  state.q[2] += 1;
+  state.q[simulation::kPelvisY] += 1;
   const auto acceleration = [&](double radius, bool nominal) {
     simulation::EngineOptions options;
     options.nominal_obstacles = nominal;

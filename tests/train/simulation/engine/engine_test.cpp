@@ -98,7 +98,7 @@ void expect_recorded_reactions(simulation::Engine& engine, const osim::Model& mo
   const Reference recorded(file);
   for (std::size_t row = 0; row < recorded.rows.size(); ++row) {
     engine.set_state(recorded_pose(model, recorded, row));
-    const simulation::Planar force = engine.kinematics().ground_reaction_N[0];
+    const simulation::PlanarVector force = engine.kinematics().ground_reaction_N[0];
     EXPECT_TRUE(close(force.x, recorded.number(row, "GRF_x_N"), 1e-9, 1e-7)) << "row " << row;
     EXPECT_TRUE(close(force.y, recorded.number(row, "GRF_y_N"), 1e-9, 1e-7)) << "row " << row;
   }
@@ -118,7 +118,7 @@ TEST_P(EngineStatics, DerivativesAreTheLawsOfMotion) {
   // A muscle's strength scales the force it adds; at rest gravity alone moves the runner.
   const auto strong = engine(), weak = engine(), none = engine();
   simulation::RunnerState state = simulation::default_state(model_);
-  state.q[2] = 3;  // in the air
+  state.q[simulation::kPelvisY] = 3;  // in the air
   for (auto* each : {strong.get(), weak.get(), none.get()}) {
     each->set_state(state);
     each->equilibrate_fibers();

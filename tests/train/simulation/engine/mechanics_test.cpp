@@ -22,8 +22,8 @@ double uniform(std::mt19937_64& random, double low, double high) {
 simulation::RunnerState random_state(const osim::Model& model, std::mt19937_64& random,
                                      double height) {
   simulation::RunnerState state = simulation::default_state(model);
-  state.q[0] = uniform(random, -0.5, 0.5);
-  state.q[2] = height + uniform(random, -0.05, 0.05);
+  state.q[simulation::kPelvisTilt] = uniform(random, -0.5, 0.5);
+  state.q[simulation::kPelvisY] = height + uniform(random, -0.05, 0.05);
   for (int leg : {3, 6}) {
     state.q[leg] = uniform(random, -1, 1.5);
     state.q[leg + 1] = uniform(random, -2, 0.3);
@@ -47,7 +47,8 @@ Conserved conserved(simulation::Engine& engine) {
     for (int j = 0; j < simulation::kCoordinates; ++j)
       p[i] += mass[i * simulation::kCoordinates + j] * state.u[j];
   // The tilt's momentum is the angular one about the pelvis.
-  const double about_pelvis = (k.com.x - state.q[1]) * p[2] - (k.com.y - state.q[2]) * p[1];
+  const double about_pelvis = (k.com.x - state.q[simulation::kPelvisX]) * p[2] -
+                              (k.com.y - state.q[simulation::kPelvisY]) * p[1];
   return {k.energy_J, p[1], p[2], p[0] - about_pelvis};
 }
 
@@ -88,7 +89,7 @@ TEST_P(Mechanics, ContactAndMusclesAreInternalOrOfTheGround) {
     const Conserved a = conserved(*engine);
     engine->set_state(behind);
     const Conserved b = conserved(*engine);
-    const simulation::Planar foot_r = k.ground_reaction_N[0], foot_l = k.ground_reaction_N[1];
+    const simulation::PlanarVector foot_r = k.ground_reaction_N[0], foot_l = k.ground_reaction_N[1];
     EXPECT_NEAR((a.momentum_x - b.momentum_x) / (2 * step), foot_r.x + foot_l.x, 1e-2);
     EXPECT_NEAR((a.momentum_y - b.momentum_y) / (2 * step), foot_r.y + foot_l.y - 79.6646 * 9.80665,
                 1e-2);

@@ -10,8 +10,8 @@
 #include "train/simulation/laws/contact.h"
 #include "train/simulation/laws/muscle.h"
 #include "train/simulation/make_engine.h"
-#include "train/simulation/planar/engine.h"
 #include "train/simulation/planar/muscles.h"
+#include "train/simulation/planar/planar_engine.h"
 
 namespace stride {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/train/engines.h"
 #include "tests/train/rollout.h"
 #include "train/simulation/integration/rosenbrock.h"
-#include "train/simulation/planar/engine.h"
+#include "train/simulation/planar/planar_engine.h"
 
 namespace stride {
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibrate/osim/model.h"
+#include "train/simulation/engine/engine.h"
 #include "train/simulation/laws/contact.h"
 #include "train/simulation/laws/limit.h"
 #include "train/simulation/simd/simd.h"
@@ -19,7 +20,11 @@ namespace stride::planar {
 /// tilt, x, y; muscles at 2 · muscle + leg.
 struct PlanarModel {
   static constexpr int kLegs = 2, kJoints = 3, kSegments = 4;  // segment 0 is the base
-  static constexpr int kMusclesOfLeg = 9, kMuscles = 18, kMuscleGroups = 5;  // groups of four
+  static constexpr int kMusclesOfLeg = simulation::kMusclesOfLeg, kMuscles = simulation::kMuscles;
+  static constexpr int kMuscleGroups = (kMuscles + 3) / 4;  // of four
+  static_assert(kMusclesOfLeg == 9 && simulation::kCoordinates == kLegs * kJoints + 3,
+                "the planar engine's lanes and eliminations are laid out for two legs of three "
+                "joints and nine muscles; another model runs on the simbody engine alone");
   static constexpr int kFunctions = 8;  // of the knee angle: the hinge x, y; moving points x, y
 
   /// Where a body sits in its segment: a planar transform, and its constant height above the

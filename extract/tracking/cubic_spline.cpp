@@ -1,4 +1,4 @@
-#include "extract/tracking/spline.h"
+#include "extract/tracking/cubic_spline.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -58,14 +58,14 @@ Slopes polynomial_slopes(const std::vector<double>& t, const std::vector<Eigen::
 
 }  // namespace
 
-Spline::Spline(std::vector<double> t, std::vector<Eigen::Vector2d> p)
+CubicSpline::CubicSpline(std::vector<double> t, std::vector<Eigen::Vector2d> p)
     : t_(std::move(t)), p_(std::move(p)) {
   require(!t_.empty() && t_.size() == p_.size(), "spline: {} times and {} points", t_.size(),
           p_.size());
   slope_ = t_.size() < 4 ? polynomial_slopes(t_, p_) : not_a_knot_slopes(t_, p_);
 }
 
-Eigen::Vector2d Spline::operator()(double t) const {
+Eigen::Vector2d CubicSpline::operator()(double t) const {
   if (t <= t_.front()) return p_.front() + slope_.front() * (t - t_.front());
   if (t >= t_.back()) return p_.back() + slope_.back() * (t - t_.back());
   const std::size_t i =

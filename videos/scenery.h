@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "videos/camera.h"
-#include "videos/noise.h"
 #include "videos/patch.h"
+#include "videos/pinhole_camera.h"
 #include "videos/skeleton.h"
+#include "videos/texture.h"
 
 namespace stride::videos {
 
@@ -21,13 +21,13 @@ struct ShadowBlob {
 std::vector<ShadowBlob> cast_shadow(const Skeleton& skeleton);
 
 /// Where the runner runs. `z` here grows toward the camera; the runner runs at z = 0.
-class Scene {
+class Scenery {
  public:
-  virtual ~Scene() = default;
+  virtual ~Scenery() = default;
   /// Paints every pixel of an image of floats, one sample at (u + du, v + dv) of each.
   /// `belt_m`: how far the belt of a treadmill has run.
-  void paint(const Camera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
-             double belt_m, cv::Mat& image) const;
+  void paint(const PinholeCamera& camera, double du, double dv,
+             const std::vector<ShadowBlob>& shadow, double belt_m, cv::Mat& image) const;
 
   /// Things that stand behind and before the runner, seen from the camera's side.
   virtual std::vector<Patch> behind(bool) const { return {}; }
@@ -45,17 +45,17 @@ class Scene {
 };
 
 /// A running track with boards and trees behind it.
-std::unique_ptr<Scene> track_scene(std::uint64_t seed);
+std::unique_ptr<Scenery> track_scene(std::uint64_t seed);
 
 /// A pavement along a wall of bricks.
-std::unique_ptr<Scene> street_scene(std::uint64_t seed);
+std::unique_ptr<Scenery> street_scene(std::uint64_t seed);
 /// A treadmill in a gym, at x = 0.
-std::unique_ptr<Scene> gym_scene(std::uint64_t seed);
+std::unique_ptr<Scenery> gym_scene(std::uint64_t seed);
 /// Plates of metal under a planet.
-std::unique_ptr<Scene> arena_scene(std::uint64_t seed);
+std::unique_ptr<Scenery> arena_scene(std::uint64_t seed);
 /// Drawn hills.
-std::unique_ptr<Scene> meadow_scene();
+std::unique_ptr<Scenery> meadow_scene();
 /// Nothing but black.
-std::unique_ptr<Scene> dark_scene();
+std::unique_ptr<Scenery> dark_scene();
 
 }  // namespace stride::videos

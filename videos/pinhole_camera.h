@@ -6,7 +6,7 @@ namespace stride::videos {
 
 /// A pinhole camera beside the way, looking across it. Axes of the world as in skeleton.h; image
 /// as in extract/trajectory.h.
-struct Camera {
+struct PinholeCamera {
   int width_px = 640, height_px = 360;
   double focal_px = 1800;
   double distance_m = 14;  // from the plane z = 0 in which the runner runs

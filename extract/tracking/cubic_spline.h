@@ -7,10 +7,10 @@ namespace stride::tracking {
 
 /// The cubic spline through points in the plane, with "not a knot" ends; through fewer than four
 /// points the polynomial, outside the points their straight continuation.
-class Spline {
+class CubicSpline {
  public:
   /// `t` grows strictly and is as long as `p`, at least 1.
-  Spline(std::vector<double> t, std::vector<Eigen::Vector2d> p);
+  CubicSpline(std::vector<double> t, std::vector<Eigen::Vector2d> p);
 
   Eigen::Vector2d operator()(double t) const;
 

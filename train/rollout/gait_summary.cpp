@@ -1,4 +1,4 @@
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,8 @@ GaitSummary gait_of(const Rollout& rollout, const osim::Model& model) {
   const RolloutFrame& later = frames[frames.size() * 2 / 3];
   const auto speed = [](const RolloutFrame& a, const RolloutFrame& b) {
     const double time = b.state.time_s - a.state.time_s;
-    return time > 0 ? (b.state.q[1] - a.state.q[1]) / time : kUnknown;
+    return time > 0 ? (b.state.q[simulation::kPelvisX] - a.state.q[simulation::kPelvisX]) / time
+                    : kUnknown;
   };
   gait.speed_m_s = speed(first, last);
   gait.last_speed_m_s = speed(later, last);

@@ -1,4 +1,4 @@
-#include "train/simulation/planar/contact.h"
+#include "train/simulation/planar/planar_contact.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "videos/noise.h"
+#include "videos/texture.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "train/rollout/gait.h"
+#include "train/rollout/gait_summary.h"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ class Clockwork : public ::testing::Test {
       rollout::RolloutFrame frame;
       const double t = 0.01 * i, strides = t / 0.7;
       frame.state.time_s = t;
-      frame.state.q[1] = 3 * t;
-      frame.state.q[2] = 0.9;
+      frame.state.q[simulation::kPelvisX] = 3 * t;
+      frame.state.q[simulation::kPelvisY] = 0.9;
       frame.kinematics.bodies.resize(model_.bodies.size());
       for (auto& body : frame.kinematics.bodies) body.position = {3 * t, 0.9};
       for (int side = 0; side < 2; ++side) {
@@ -86,7 +86,7 @@ TEST_F(Clockwork, ChatterShorterThan30MsIsNoStep) {
 
 TEST_F(Clockwork, ARunnerThatStandsHasNoSteps) {
   for (rollout::RolloutFrame& frame : rollout_.frames) {
-    frame.state.q[1] = 0;
+    frame.state.q[simulation::kPelvisX] = 0;
     for (auto& force : frame.kinematics.ground_reaction_N) force.y = rollout::weight_N(model_) / 2;
   }
   const rollout::GaitSummary gait = rollout::gait_of(rollout_, model_);

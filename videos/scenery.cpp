@@ -1,4 +1,4 @@
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,8 @@ std::vector<ShadowBlob> cast_shadow(const Skeleton& k) {
   return blobs;
 }
 
-void Scene::paint(const Camera& camera, double du, double dv, const std::vector<ShadowBlob>& shadow,
-                  double belt_m, cv::Mat& image) const {
+void Scenery::paint(const PinholeCamera& camera, double du, double dv,
+                    const std::vector<ShadowBlob>& shadow, double belt_m, cv::Mat& image) const {
   double left = 1e9, right = -1e9;
   for (const ShadowBlob& blob : shadow) {
     left = std::min(left, blob.x_m - 3 * blob.radius_m);

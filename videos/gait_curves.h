@@ -19,7 +19,7 @@ struct Harmonics {
 /// How somebody runs: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee −
 /// flexion, ankle + dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot
 /// strike, the left leg half a stride later.
-struct Gait {
+struct GaitCurves {
   std::string name, source;
   double period_s = 0;
   Harmonics hip_flexion_deg, knee_angle_deg, ankle_angle_deg, pelvis_tilt_deg;
@@ -33,11 +33,11 @@ struct Gait {
          hip_drop_m = 0;  // of the right hip, by the rotation and list of the pelvis
 };
 
-Gait rajagopal_run();  // a man at 3.8 m/s
-Gait hamner_run();     // a man at 3.96 m/s
-Gait jog();            // 2.8 m/s
-Gait walk();           // 1.14 m/s
-Gait game_run();       // high knees, long flight
-Gait cartoon_run();    // the man's run, exaggerated
+GaitCurves rajagopal_run();  // a man at 3.8 m/s
+GaitCurves hamner_run();     // a man at 3.96 m/s
+GaitCurves jog();            // 2.8 m/s
+GaitCurves walk();           // 1.14 m/s
+GaitCurves game_run();       // high knees, long flight
+GaitCurves cartoon_run();    // the man's run, exaggerated
 
 }  // namespace stride::videos

@@ -1,12 +1,12 @@
 #include <cmath>
 
 #include "videos/colour.h"
-#include "videos/scene.h"
+#include "videos/scenery.h"
 
 namespace stride::videos {
 namespace {
 
-class Track final : public Scene {
+class Track final : public Scenery {
  public:
   explicit Track(std::uint64_t seed) : grain_(seed) {}
 
@@ -70,6 +70,6 @@ class Track final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> track_scene(std::uint64_t seed) { return std::make_unique<Track>(seed); }
+std::unique_ptr<Scenery> track_scene(std::uint64_t seed) { return std::make_unique<Track>(seed); }
 
 }  // namespace stride::videos

@@ -1,4 +1,4 @@
-#include "train/simulation/planar/engine.h"
+#include "train/simulation/planar/planar_engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ class PlanarEngine final : public simulation::Engine {
 
   simulation::AdvanceReport advance(const simulation::Excitations& excitations,
                                     double duration_s) override {
-    const simulation::AdvanceReport report =
+    simulation::AdvanceReport report =
         integrator_.advance(dynamics_, y_, activation_, interleave(excitations), duration_s);
     for (int i = 0; i < simulation::kCoordinates; ++i) {
       state_.q[i] = y_.q(dynamics_.model().coordinate[i]);
@@ -161,7 +161,7 @@ simulation::RunnerKinematics PlanarEngine::kinematics() {
     const double c = std::cos(segment.angle_rad), s = std::sin(segment.angle_rad);
     const auto point = [&](double x, double y) {  // position and velocity of a point of the segment
       const double dx = c * x - s * y, dy = s * x + c * y;
-      return std::pair<simulation::Planar, simulation::Planar>{
+      return std::pair<simulation::PlanarVector, simulation::PlanarVector>{
           {segment.position.x + dx, segment.position.y + dy},
           {segment.velocity.x - segment.omega_rad_s * dy,
            segment.velocity.y + segment.omega_rad_s * dx}};

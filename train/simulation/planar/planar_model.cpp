@@ -1,4 +1,4 @@
-#include "train/simulation/planar/model.h"
+#include "train/simulation/planar/planar_model.h"
 
 #include <algorithm>
 #include <cmath>

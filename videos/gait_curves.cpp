@@ -1,4 +1,4 @@
-#include "videos/gait.h"
+#include "videos/gait_curves.h"
 
 #include <cmath>
 #include <numbers>
@@ -14,8 +14,8 @@ double Harmonics::operator()(double phase) const {
   return value;
 }
 
-Gait rajagopal_run() {
-  Gait gait;
+GaitCurves rajagopal_run() {
+  GaitCurves gait;
   gait.name = "rajagopal_run";
   gait.source =
       "Rajagopal, Dembia, DeMers, Delp, Hicks, Delp 2016, IEEE Trans. Biomed. Eng. 63:2068, trial "
@@ -57,8 +57,8 @@ Gait rajagopal_run() {
   return gait;
 }
 
-Gait hamner_run() {
-  Gait gait = rajagopal_run();  // its trunk and arms
+GaitCurves hamner_run() {
+  GaitCurves gait = rajagopal_run();  // its trunk and arms
   gait.name = "hamner_run";
   gait.source =
       "Hamner, Seth, Delp 2010, J. Biomech. 43:2709, subject 2: thirteen strides of a man of 1.83 "
@@ -93,8 +93,8 @@ Gait hamner_run() {
   return gait;
 }
 
-Gait jog() {
-  Gait gait;
+GaitCurves jog() {
+  GaitCurves gait;
   gait.name = "jog";
   gait.source =
       "humanoid3d_jog of DeepMimic (Xue Bin Peng 2018, MIT licence), 2.8 m/s; Fourier series of "
@@ -132,8 +132,8 @@ Gait jog() {
   return gait;
 }
 
-Gait walk() {
-  Gait gait;
+GaitCurves walk() {
+  GaitCurves gait;
   gait.name = "walk";
   gait.source =
       "OpenSim's example of Gait10dof18musc, subject 1 at 1.14 m/s; Fourier series of the mean of "
@@ -170,8 +170,8 @@ Gait walk() {
   return gait;
 }
 
-Gait game_run() {
-  Gait gait;
+GaitCurves game_run() {
+  GaitCurves gait;
   gait.name = "game_run";
   gait.source =
       "humanoid3d_run of DeepMimic (Xue Bin Peng 2018, MIT licence), a stylised run of 3.6 m/s; "
@@ -204,8 +204,8 @@ Gait game_run() {
   return gait;
 }
 
-Gait cartoon_run() {
-  Gait gait = rajagopal_run();
+GaitCurves cartoon_run() {
+  GaitCurves gait = rajagopal_run();
   gait.name = "cartoon_run";
   gait.source = "drawn by eye: the run of Rajagopal et al. 2016 with every swing exaggerated";
   gait.period_s = 0.64;
