@@ -271,13 +271,6 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Whether the learner of these options has no use for that field.
-bool of_another_learner(const Field& field, const TrainOptions& options) {
-  if (options.run.learner == "ddpg") return field.key.starts_with("ppo.");
-  return std::ranges::any_of(std::array{"agent.", "exploration.", "replay."},
-                             [&](const char* section) { return field.key.starts_with(section); });
-}
-
 void check_range(const Field& field, double value, const std::string& text) {
   const bool below_one = field.max == kBelowOne;
   require(value >= field.min && value <= field.max, "{} = {}: must be in [{}, {}{}", field.key,
@@ -363,7 +356,7 @@ std::string to_toml(const TrainOptions& options, std::string_view heading) {
   std::string text(heading), section;
   for (const Field& field : fields(copy)) {
     const auto dot = field.key.find('.');
-    if (dot == std::string::npos || of_another_learner(field, options)) continue;
+    if (dot == std::string::npos) continue;
     if (field.key.substr(0, dot) != section) {
       section = field.key.substr(0, dot);
       text += fmt::format("\n[{}]\n", section);

@@ -111,8 +111,7 @@ void set_options(const std::vector<TomlSetting>& settings, const std::string& so
 /// The same for one `key=value` of a command line.
 void set_option(std::string_view assignment, TrainOptions& options);
 
-/// The options as TOML, each with its meaning, without those of another learner; reads back as the
-/// same options.
+/// All options as TOML, each with its meaning; reads back as the same options.
 std::string to_toml(const TrainOptions& options, std::string_view heading);
 
 /// train/presets/NAME.toml. Throws Error with the list of presets.
