@@ -31,7 +31,7 @@ const std::vector<std::string> kRooms{
     "train/simulation/engine", "train/simulation/laws", "train/simulation/integration",
     "train/simulation/simd", "train/simulation/simbody", "train/simulation/planar",
     "train/simulation/competition", "train/simulation", "train/environment", "train/network",
-    "train/ddpg", "train/training", "train/rollout", "train/film", "train/evaluation",
+    "train/ddpg", "train/training", "train/ppo", "train/rollout", "train/film", "train/evaluation",
     "train/experiments", "train/commands"};
 
 constexpr std::size_t kMostUnits = 12;  // of a room

@@ -18,8 +18,15 @@ void add_evaluate_command(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   evaluation::EvaluateOptions& options = request->options;
   command->add_option("run", request->run, "Run folder")->required();
-  command->add_option("--episodes", options.episodes, "Episodes, of seeds 0, 1, …")
+  command->add_option("--episodes", options.episodes, "Episodes, each of another seed")
       ->capture_default_str();
+  command
+      ->add_option("--first", options.first_seed,
+                   "The first seed: choose an agent on some scenes, report it on others")
+      ->capture_default_str();
+  command->add_option("--obstacles", options.obstacles, "At most; -1: as in training")
+      ->capture_default_str();
+  command->add_option("--threads", options.threads, "0: one a core")->capture_default_str();
   command->add_option("--agent", options.agent, "best, or agent: the last one")
       ->capture_default_str();
   command->add_option("--difficulty", options.difficulty, "0, 1, 2; -1: as in training")

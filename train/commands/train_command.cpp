@@ -5,9 +5,9 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "train/ppo/train_run.h"
 #include "train/training/interrupt.h"
 #include "train/training/runner_factory.h"
-#include "train/training/train.h"
 
 namespace stride {
 namespace {
@@ -70,7 +70,7 @@ void train_as_requested(const Request& request) {
   const training::TrainOptions options = training::load_run_options(run);
   const training::EnvironmentFactory runners =
       training::make_runners(options.environment, training::load_run_demonstration(options, run));
-  const training::TrainSummary summary = training::train(run, runners, interrupted, stderr);
+  const training::TrainSummary summary = train_run(run, runners, interrupted, stderr);
   require(summary.divergence.empty(), "{}: {}; the last good checkpoint is kept", run.string(),
           summary.divergence);
   require(summary.unsaved.empty(),
@@ -95,7 +95,9 @@ void add_train_command(CLI::App& app) {
   command->add_option("--out", request->out, "Folder of the run, new");
   command->add_option("--seed", request->seed, "Of every random number");
   command->add_option("--decisions", request->decisions, "The run ends after so many");
-  command->add_option("--preset", request->preset, "Settings in train/presets: stride, paper, demo")
+  command
+      ->add_option("--preset", request->preset,
+                   "Settings in train/presets: stride, paper, demo, ppo")
       ->default_val("stride");
   command->add_option("--config", request->config, "TOML file of settings, over the preset");
   command->add_option("--set", request->assignments, "One setting, as agent.gamma=0.99");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "extract/io/error.h"
+#include "train/environment/robust_features.h"
 
 namespace stride::environment {
 namespace {
@@ -25,6 +26,9 @@ int find(const EnvironmentSpec& spec, const std::string& name) {
   return static_cast<int>(found - spec.observation_names.begin());
 }
 
+/// Of the competition's 41, coordinates and centre of mass are never late.
+constexpr int kRobustOfCompetition = 22;
+
 /// `head_x`, `com_x`, `pelvis_tx`: a position along the ground.
 bool is_position_along_ground(const std::string& name) {
   return name == "pelvis_tx" || (name.ends_with("_x") && !name.starts_with("obstacle"));
@@ -35,13 +39,20 @@ bool is_position_along_ground(const std::string& name) {
 Observer::Observer(const EnvironmentSpec& spec, const ObservationOptions& options,
                    double decision_s)
     : decision_s_(decision_s), phase_(options.phase) {
-  const int base =
-      std::min(kCompetitionObservations, static_cast<int>(spec.observation_names.size()));
+  const int base = std::min(options.robust ? 0 : kCompetitionObservations,
+                            static_cast<int>(spec.observation_names.size()));
   const auto take = [this](const std::string& name, int value, int origin = -1) {
     names_.push_back(name);
     taken_.push_back({value, origin});
   };
 
+  if (options.robust) {
+    for (int i = 0; i < kRobustOfCompetition; ++i) {
+      const std::string& name = spec.observation_names[static_cast<std::size_t>(i)];
+      if (name != "pelvis_tx") take(name, i, name == "com_x" ? find(spec, "pelvis_tx") : -1);
+    }
+    for (const std::string& name : RobustFeatures::names()) take(name, find(spec, name));
+  }
   const int pelvis_x = options.centre || options.derived ? find(spec, "pelvis_tx") : -1;
   for (int i = 0; i < base; ++i) {
     const std::string& name = spec.observation_names[static_cast<std::size_t>(i)];

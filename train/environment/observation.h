@@ -9,6 +9,7 @@
 namespace stride::environment {
 
 struct ObservationOptions {
+  bool robust = false;      // what RobustFeatures makes of the 41, instead of the late and the rest
   bool centre = true;       // x positions are measured from the pelvis
   bool derived = false;     // the 71 features that the paper adds to the competition's 41
   bool activations = true;  // of the runner's own muscles

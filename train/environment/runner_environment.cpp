@@ -40,6 +40,7 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
     : options_(options),
       engine_(simulation::make_engine(options.engine, model, engine_options(options))),
       sensors_(model),
+      robust_features_(model, options.rules),
       knee_r_(model.body("tibia_r")),
       knee_l_(model.body("tibia_l")) {
   competition::check_scene_options(options.difficulty, options.max_obstacles);
@@ -62,6 +63,8 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
   foot_r_ = model.body(options.foot == "toe" ? "toes_r" : "talus_r");
   foot_l_ = model.body(options.foot == "toe" ? "toes_l" : "talus_l");
   spec_.observation_names = competition::Sensors::names();
+  spec_.observation_names.insert(spec_.observation_names.end(), RobustFeatures::names().begin(),
+                                 RobustFeatures::names().end());
   spec_.action_names.assign(simulation::muscle_names().begin(), simulation::muscle_names().end());
   spec_.step_s = competition::kStep_s;
   spec_.max_steps = options.max_steps;
@@ -77,8 +80,11 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   reward_ = {};
   report_ = {};
   scene_ = competition::draw_scene(seed, options_.difficulty, options_.max_obstacles);
-  competition::arrange(scene_, options_.rules, options_.max_obstacles, *engine_);
   std::mt19937_64 random(seed);
+  thin_out(random);
+  competition::arrange(scene_, options_.rules, options_.max_obstacles, *engine_);
+  late_positions_.start(seed);
+  robust_features_.start();
   if (options_.reference && uniform(random) < options_.reference_share)
     start_on_reference(random);
   else
@@ -87,6 +93,17 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   kinematics_ = engine_->kinematics();
   observe();
   return step_.observation;
+}
+
+void RunnerEnvironment::thin_out(std::mt19937_64& random) {
+  if (options_.flat_share + options_.few_share == 0) return;
+  constexpr std::size_t kFew = 3;
+  const double kind = uniform(random), count = uniform(random);
+  if (kind < options_.flat_share)
+    scene_.obstacles.clear();
+  else if (kind < options_.flat_share + options_.few_share)
+    scene_.obstacles.resize(
+        std::min(scene_.obstacles.size(), static_cast<std::size_t>(count * (kFew + 1))));
 }
 
 void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
@@ -110,6 +127,10 @@ void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
 void RunnerEnvironment::observe() {
   sensors_.read(engine_->state(), kinematics_, scene_, options_.rules, options_.max_obstacles,
                 step_.observation.data());
+  if (options_.late_positions && options_.rules == competition::Rules::nips2017)
+    late_positions_.apply(step_.observation);
+  robust_features_.read(step_.observation,
+                        step_.observation.data() + competition::Sensors::names().size());
 }
 
 const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {

@@ -7,6 +7,8 @@
 
 #include "calibrate/runner/calibrated.h"
 #include "train/environment/environment.h"
+#include "train/environment/late_positions.h"
+#include "train/environment/robust_features.h"
 #include "train/simulation/competition/rules.h"
 #include "train/simulation/competition/sensors.h"
 #include "train/simulation/make_engine.h"
@@ -26,6 +28,10 @@ struct RunnerOptions {
   /// rules, and raised where the fit has put a foot into the floor deeper than standing does.
   std::optional<CalibratedTrajectory> reference;
   double reference_share = 1;
+  /// Of the episodes have no obstacles, and at most three, whatever the difficulty says.
+  double flat_share = 0, few_share = 0;
+  /// Under nips2017: observed positions of bodies are late now and then (O6), see LatePositions.
+  bool late_positions = true;
 };
 
 /// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation, reward and
@@ -64,11 +70,14 @@ class RunnerEnvironment final : public Environment {
  private:
   void start_on_reference(std::mt19937_64& random);
   void observe();
+  void thin_out(std::mt19937_64& random);
 
   RunnerOptions options_;
   EnvironmentSpec spec_;
   std::unique_ptr<simulation::Engine> engine_;
   competition::Sensors sensors_;
+  LatePositions late_positions_;
+  RobustFeatures robust_features_;
   int knee_r_, knee_l_, foot_r_, foot_l_;  // indices into Model::bodies
 
   competition::Scene scene_;

@@ -22,6 +22,10 @@ using Json = nlohmann::ordered_json;
 /// Not a number becomes null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+Json to_json(const std::pair<double, double>& interval) {
+  return {number(interval.first), number(interval.second)};
+}
+
 Json to_json(const rollout::GaitBand& band) { return {band.low, band.high}; }
 
 /// Null where humans do not run.
@@ -46,9 +50,10 @@ Json to_json(const rollout::GaitSummary& gait) {
 }
 
 Json to_json(const Evaluation& evaluation, const fs::path& agent) {
+  const EpisodeStatistics& statistics = evaluation.statistics;
   Json episodes = Json::array();
   for (const network::EpisodeSummary& episode : evaluation.episodes)
-    episodes.push_back({{"seed", episodes.size()},
+    episodes.push_back({{"seed", evaluation.first_seed + episodes.size()},
                         {"distance_m", episode.distance_m},
                         {"reward", episode.reward},
                         {"time_s", episode.time_s},
@@ -57,53 +62,41 @@ Json to_json(const Evaluation& evaluation, const fs::path& agent) {
   return {{"format", "stride-evaluation"},
           {"version", 1},
           {"agent", agent.filename().string()},
-          {"distance_m", evaluation.distance_m},
-          {"distance_se_m", number(evaluation.distance_se_m)},
-          {"falls", evaluation.falls},
+          {"distance_m", statistics.distance_m},
+          {"distance_se_m", number(statistics.distance_se_m)},
+          {"distance_95_m", to_json(statistics.distance_95_m)},
+          {"finished_distance_m", number(statistics.finished_distance_m)},
+          {"falls", statistics.falls},
+          {"fall_share_95", to_json(statistics.fall_share_95)},
+          {"median_seed", evaluation.first_seed + median_episode(evaluation.episodes)},
           {"gait", to_json(evaluation.gait)},
           {"human_at_this_speed", to_json(rollout::human_gait(evaluation.gait.speed_m_s))},
           {"episodes", episodes}};
 }
 
-/// Mean and standard error of the distances.
-void summarise(Evaluation& evaluation) {
-  const auto n = static_cast<double>(evaluation.episodes.size());
-  double sum = 0, squares = 0;
-  for (const network::EpisodeSummary& episode : evaluation.episodes) {
-    sum += episode.distance_m;
-    evaluation.falls += episode.fell;
-  }
-  evaluation.distance_m = sum / n;
-  for (const network::EpisodeSummary& episode : evaluation.episodes)
-    squares += std::pow(episode.distance_m - evaluation.distance_m, 2);
-  evaluation.distance_se_m = n > 1 ? std::sqrt(squares / (n - 1) / n) : NAN;
-}
-
 template <typename Scalar>
-std::vector<rollout::Rollout> run_episodes(const fs::path& agent,
-                                           const training::TrainOptions& train_options,
-                                           const Potential* potential,
-                                           environment::RunnerEnvironment& environment,
-                                           const EvaluateOptions& options) {
+rollout::Rollout record(const fs::path& agent, const training::TrainOptions& train_options,
+                        const Potential* potential, environment::RunnerEnvironment& environment,
+                        std::uint64_t seed) {
   environment::Observer observer =
       training::make_observer(train_options, potential, environment.spec());
   const network::Policy<Scalar> policy =
       network::load_policy<Scalar>(agent, observer.names(), environment.spec().action_names);
-  std::vector<rollout::Rollout> rollouts;
-  for (int seed = 0; seed < options.episodes; ++seed)
-    rollouts.push_back(rollout::record_episode(policy, environment, observer, potential,
-                                               train_options.run.action_repeat,
-                                               static_cast<std::uint64_t>(seed)));
-  return rollouts;
+  return rollout::record_episode(policy, environment, observer, potential,
+                                 train_options.run.action_repeat, seed);
 }
 
 }  // namespace
 
 std::string Evaluation::brief_report() const {
-  std::string text = fmt::format("{:.2f} m", distance_m);
+  std::string text = fmt::format("{:.2f} m", statistics.distance_m);
   if (episodes.size() > 1)
-    text += fmt::format(" ± {:.2f} over {} episodes", distance_se_m, episodes.size());
-  text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", falls, episodes.front().time_s,
+    text += fmt::format(
+        " ± {:.2f} over {} episodes, {:.2f} m over those that finished, {:.0f} to {:.0f} % fall",
+        statistics.distance_se_m, episodes.size(), statistics.finished_distance_m,
+        100 * statistics.fall_share_95.first, 100 * statistics.fall_share_95.second);
+  const network::EpisodeSummary& median = episodes[median_episode(episodes)];
+  text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", statistics.falls, median.time_s,
                       gait.speed_m_s);
   if (!std::isfinite(gait.duty_factor)) return text + ", too few steps to speak of a gait";
   text += fmt::format(", at last {:.2f}", gait.last_speed_m_s);
@@ -129,38 +122,41 @@ std::string Evaluation::brief_report() const {
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
+  require(options.first_seed >= 0, "--first {}: must be at least 0", options.first_seed);
   const fs::path agent = network::agent_file(run, options.agent);
   training::TrainOptions train_options = training::load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
   if (!options.rules.empty()) train_options.environment.rules = options.rules;
   if (!options.engine.empty()) train_options.environment.engine = options.engine;
+  if (options.obstacles >= 0) train_options.environment.max_obstacles = options.obstacles;
   train_options.environment.reference.clear();  // only training episodes start on it
   train_options.check();
   const training::Demonstration shaped_by = training::load_run_demonstration(train_options, run);
   const Potential* potential = shaped_by.potential ? &*shaped_by.potential : nullptr;
-  const std::unique_ptr<environment::Environment> made =
-      training::make_runners(train_options.environment, shaped_by)(-1);
+  const training::EnvironmentFactory make_environment =
+      training::make_runners(train_options.environment, shaped_by);
+  Evaluation evaluation;
+  evaluation.first_seed = static_cast<std::uint64_t>(options.first_seed);
+  evaluation.episodes = run_episodes(agent, train_options, potential, make_environment,
+                                     evaluation.first_seed, options.episodes, options.threads);
+  evaluation.statistics = statistics_of(evaluation.episodes);
+
+  const std::unique_ptr<environment::Environment> made = make_environment(-1);
   auto& environment = static_cast<environment::RunnerEnvironment&>(*made);
   const osim::Model& model = environment.engine().model();
-
-  const auto run_them =
-      train_options.run.precision == "float" ? run_episodes<float> : run_episodes<double>;
-  const std::vector<rollout::Rollout> rollouts =
-      run_them(agent, train_options, potential, environment, options);
-  Evaluation evaluation;
-  for (const rollout::Rollout& rollout : rollouts) evaluation.episodes.push_back(rollout.summary);
-  summarise(evaluation);
-  const rollout::Rollout& farthest = *std::ranges::max_element(
-      rollouts, {}, [](const rollout::Rollout& rollout) { return rollout.summary.distance_m; });
-  evaluation.gait = rollout::gait_of(farthest, model);
+  const auto record_one = train_options.run.precision == "float" ? record<float> : record<double>;
+  const rollout::Rollout median =
+      record_one(agent, train_options, potential, environment,
+                 evaluation.first_seed + median_episode(evaluation.episodes));
+  evaluation.gait = rollout::gait_of(median, model);
 
   const fs::path out = options.out.empty() ? run : options.out;
   evaluation.file = out / "evaluation.json";
   write_file_atomically(evaluation.file, to_json(evaluation, agent).dump(1) + "\n");
-  write_file_atomically(out / "evaluation.mot", rollout::motion_file(farthest));
-  write_file_atomically(out / "evaluation.sto", rollout::states_file(farthest));
+  write_file_atomically(out / "evaluation.mot", rollout::motion_file(median));
+  write_file_atomically(out / "evaluation.sto", rollout::states_file(median));
   if (!options.trajectory.empty()) {
-    CalibratedTrajectory own = rollout::demonstration(farthest, model, options.from_s);
+    CalibratedTrajectory own = rollout::demonstration(median, model, options.from_s);
     own.source = fs::absolute(run).lexically_normal().filename().string();
     save(own, options.trajectory);
   }
@@ -171,7 +167,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
           film::find_source(*potential, train_options.shaping.source.empty()
                                             ? run
                                             : fs::path(train_options.shaping.source).parent_path());
-    film::write_film(farthest, model, fmt::format("{:.1f} m", farthest.summary.distance_m), source,
+    film::write_film(median, model, fmt::format("{:.1f} m", median.summary.distance_m), source,
                      out / "evaluation.mp4");
   }
   return evaluation;

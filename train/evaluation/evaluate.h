@@ -4,27 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "train/evaluation/episodes.h"
 #include "train/rollout/gait_summary.h"
 #include "train/training/options.h"
 
 namespace stride::evaluation {
 
 struct EvaluateOptions {
-  int episodes = 1;            // seeds 0, 1, …; the film shows the one that came farthest
-  std::string agent = "best";  // best.safetensors, or agent: the last one
-  int difficulty = -1;         // -1: as in training
-  std::string rules, engine;   // empty: as in training
-  std::filesystem::path out;   // folder of what is written; empty: the run folder
+  int episodes = 1;             // the film shows the one with the median distance
+  std::int64_t first_seed = 0;  // of the episodes: first_seed, first_seed + 1, …
+  int threads = 0;              // 0: one a core
+  int obstacles = -1;           // -1: as many as in training
+  std::string agent = "best";   // best.safetensors, or agent: the last one
+  int difficulty = -1;          // -1: as in training
+  std::string rules, engine;    // empty: as in training
+  std::filesystem::path out;    // folder of what is written; empty: the run folder
   bool film = true;
-  std::filesystem::path trajectory;  // if not empty: a demonstration of the best episode goes there
-  double from_s = 2;                 // where the demonstration begins
+  std::filesystem::path
+      trajectory;     // if not empty: a demonstration of the median episode goes there
+  double from_s = 2;  // where the demonstration begins
 };
 
 struct Evaluation {
   std::vector<network::EpisodeSummary> episodes;
-  double distance_m = 0, distance_se_m = 0;  // mean and standard error
-  int falls = 0;
-  rollout::GaitSummary gait;  // of the episode that came farthest
+  std::uint64_t first_seed = 0;
+  EpisodeStatistics statistics;
+  rollout::GaitSummary gait;  // of the median episode
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -7,9 +7,9 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "train/experiments/experiment_report.h"
+#include "train/ppo/train_run.h"
 #include "train/training/runner_factory.h"
 #include "train/training/thread_pool.h"
-#include "train/training/train.h"
 
 namespace stride::experiments {
 namespace fs = std::filesystem;
@@ -50,10 +50,10 @@ std::string work_on(const Job& job, const std::atomic<bool>& stop) {
   const training::TrainOptions options = training::load_run_options(job.run);
   const std::unique_ptr<std::FILE, FileCloser> log(std::fopen((job.run / "log.txt").c_str(), "a"));
   const training::TrainSummary summary =
-      training::train(job.run,
-                      training::make_runners(options.environment,
-                                             training::load_run_demonstration(options, job.run)),
-                      stop, log.get());
+      train_run(job.run,
+                training::make_runners(options.environment,
+                                       training::load_run_demonstration(options, job.run)),
+                stop, log.get());
   if (!summary.divergence.empty()) return summary.divergence;
   if (!summary.unsaved.empty()) return summary.unsaved;
   if (!summary.finished) return "stopped";

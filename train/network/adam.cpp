@@ -23,7 +23,10 @@ double Adam<Scalar>::descend(Vector& parameters, Vector& gradient, double rate) 
   const auto a = static_cast<Scalar>(rate / correction1);
   const auto root = static_cast<Scalar>(1 / std::sqrt(correction2));
   if (options.weight_decay > 0) parameters *= static_cast<Scalar>(1 - rate * options.weight_decay);
-  parameters.array() -= a * m.array() / (v.array().sqrt() * root + Scalar(options.epsilon));
+  const auto epsilon = static_cast<Scalar>(options.epsilon);
+  // Not Eigen's sqrt(), which is the processor's approximation refined: that differs by vendor.
+  for (Eigen::Index i = 0; i < parameters.size(); ++i)
+    parameters[i] -= a * m[i] / (std::sqrt(v[i]) * root + epsilon);
   return norm;
 }
 

@@ -14,6 +14,7 @@
 namespace stride::training {
 
 struct RunOptions {
+  std::string learner = "ddpg";  // or ppo
   std::int64_t seed = 1;
   std::int64_t decisions = 1'000'000;  // of all environments together, then the run ends
   int threads = 0;                     // 0: one a core; the curve does not depend on it
@@ -34,9 +35,13 @@ struct EnvironmentOptions {
   std::string model;              // .osim; empty: the model of Learning to Run
   int difficulty = 0;
   int max_obstacles = 3;
-  double accuracy = 1e-3;        // of the integration
-  std::string reference;         // calibrated run, as it was copied into the run folder
-  double reference_share = 0.7;  // of training episodes start on it
+  double flat_share = 0, few_share = 0;  // of training episodes: no obstacles, three at most
+  bool late_positions = true;            // under nips2017, as OpenSim observes bodies
+  double accuracy = 1e-3;                // of the integration
+  double training_accuracy = 0;          // of training episodes; 0: the same
+  std::string reference;                 // calibrated run, as it was copied into the run folder
+  double reference_share = 0.7;          // of training episodes start on it
+  bool reference_by_slot = false;        // in that share of the environments all episodes do
 };
 
 struct RewardOptions {
@@ -59,6 +64,27 @@ struct ReplayOptions {
   bool mirror = true;
 };
 
+/// Proximal policy optimisation (Schulman et al. 2017) with generalised advantage estimation
+/// (Schulman et al. 2016).
+struct PpoOptions {
+  std::vector<int> actor_hidden = {128, 128}, critic_hidden = {128, 128};
+  std::string activation = "tanh";
+  double gamma = 0.99, lambda = 0.95;  // discount, and decay of the advantage's horizon, a decision
+  int horizon = 64;                    // decisions of each environment between two updates
+  int epochs = 6;                      // passes over them
+  int minibatch = 512;                 // decisions in a step of Adam
+  double clip = 0.2;                   // of the ratio of probabilities
+  double rate = 3e-4;                  // Adam's step size at first; then kl steers the actor's
+  double kl = 0.03, final_kl = 0.01;   // wanted mean divergence from the policy of the batch
+  double entropy = 0.003, final_entropy = 0.003;  // weight of the entropy
+  double decay_decisions = 4e6;  // over which kl, entropy and the critic's rate anneal
+  double final_rate = 0.2;       // share of the critic's rate that is left then
+  double gradient_norm_limit = 0.5;
+  double alive_per_s = 2, final_alive_per_s = 0.3;  // reward of not having fallen
+  double alive_decisions = 600'000;                 // over which it falls
+  bool mirror = true;  // each pass sees each decision or its mirror image
+};
+
 /// Everything a run depends on. Defaults are those of the preset `stride`.
 struct TrainOptions {
   RunOptions run = {};
@@ -69,6 +95,7 @@ struct TrainOptions {
   ddpg::AgentOptions agent = {};
   ddpg::ExplorationOptions exploration = {};
   ReplayOptions replay = {};
+  PpoOptions ppo = {};
 
   /// Throws Error naming the first option that is out of its range: `agent.gamma = 1.2: must be in
   /// [0, 1)`.

@@ -1,5 +1,6 @@
 #include "train/training/runner_factory.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -17,14 +18,24 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options,
   runner.difficulty = options.difficulty;
   runner.max_obstacles = options.max_obstacles;
   runner.accuracy = options.accuracy;
+  runner.late_positions = options.late_positions;
   if (demonstration.potential) runner.foot = demonstration.potential->foot;
 
-  return [model, runner, reference = demonstration.reference,
-          share = options.reference_share](int slot) {
+  return [model, runner, reference = demonstration.reference, options](int slot) {
     environment::RunnerOptions own = runner;
+    if (slot >= 0 && options.training_accuracy > 0) own.accuracy = options.training_accuracy;
+    if (slot >= 0) {
+      own.flat_share = options.flat_share;
+      own.few_share = options.few_share;
+    }
     if (slot >= 0 && reference) {
       own.reference = reference;
-      own.reference_share = share;
+      own.reference_share = options.reference_share;
+      if (options.reference_by_slot)  // of any consecutive ones the same share
+        own.reference_share = std::floor((slot + 1) * options.reference_share) >
+                                      std::floor(slot * options.reference_share)
+                                  ? 1
+                                  : 0;
     }
     return std::make_unique<environment::RunnerEnvironment>(model, own);
   };

@@ -1,9 +1,6 @@
 #include "train/training/train.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -13,6 +10,8 @@
 #include "extract/io/file.h"
 #include "train/training/checkpoint.h"
 #include "train/training/curve.h"
+#include "train/training/journal.h"
+#include "train/training/run_folder.h"
 #include "train/training/thread_pool.h"
 
 namespace stride::training {
@@ -27,119 +26,6 @@ constexpr double kDivergedValue = 1e6;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// Keeps a second program from training in the same folder.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& run)
-      : descriptor_(::open((run / "config.toml").c_str(), O_RDONLY | O_CLOEXEC)) {
-    require(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0,
-            "{}: another stride is training in this folder", run.string());
-  }
-  ~FolderLock() { ::close(descriptor_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
-
-/// Removes what a kill left half written (write_file_atomically()).
-void remove_unfinished_files(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension().string().starts_with(".tmp")) unfinished.push_back(entry.path());
-  for (const fs::path& file : unfinished) fs::remove(file);
-}
-
-std::string duration_text(double s) {
-  if (!std::isfinite(s)) return "?";
-  const auto t = static_cast<long>(s);
-  if (t >= 3600) return fmt::format("{} h {:02} min", t / 3600, t / 60 % 60);
-  if (t >= 60) return fmt::format("{} min {:02} s", t / 60, t % 60);
-  return fmt::format("{} s", t);
-}
-
-/// The files that grow while training, and the line that tells how it goes.
-class Journal {
- public:
-  Journal(const fs::path& run, const Progress& progress, std::FILE* messages)
-      : run_(run), messages_(messages), terminal_(messages && ::isatty(::fileno(messages))) {
-    if (progress.rows > 0) {
-      curve_ = load_rows(run / "curve.csv", curve_, progress.rows);
-      timing_ = load_rows(run / "timing.csv", timing_, progress.rows);
-      wall_before_s_ = timing_.rows.back()[timing_.column("wall_s")];
-    }
-    last_decisions_ = progress.decisions;
-    last_updates_ = progress.updates;
-  }
-
-  double wall_s() const { return wall_before_s_ + seconds_since(start_); }
-
-  void add_row(const TrainOptions& options, const Progress& progress, const CurveRow& row) {
-    const double s = seconds_since(last_row_);
-    const auto decisions = static_cast<double>(progress.decisions - last_decisions_);
-    const auto updates = static_cast<double>(progress.updates - last_updates_);
-    const double steps_per_s = decisions * options.run.action_repeat / s;
-    timing_.rows.push_back({row.decisions, wall_s(), steps_per_s, updates / s});
-    distance_m_ = row.evaluation_distance_m;
-    curve_.rows.push_back(row.values());
-    keep([&] { save_rows(); });
-    last_row_ = Clock::now();
-    last_decisions_ = progress.decisions;
-    last_updates_ = progress.updates;
-    tell(options, progress, steps_per_s, decisions / s);
-  }
-
-  /// Does what writes to the disk; a failure is reported, and training goes on.
-  template <typename Write>
-  void keep(const Write& write) {
-    try {
-      write();
-    } catch (const Error& error) {
-      say("warning: {}; training goes on, writing is tried again later", error.what());
-    }
-  }
-
-  void save_rows() const {
-    save(curve_, run_ / "curve.csv");
-    save(timing_, run_ / "timing.csv");
-  }
-
-  template <typename... Args>
-  void say(fmt::format_string<Args...> text, Args&&... args) {
-    if (messages_ == nullptr) return;
-    fmt::print(messages_, "{}{}\n", std::exchange(line_open_, false) ? "\n" : "",
-               fmt::format(text, std::forward<Args>(args)...));
-    std::fflush(messages_);
-  }
-
- private:
-  /// On a terminal the line replaces itself; elsewhere there is one a minute.
-  void tell(const TrainOptions& options, const Progress& progress, double steps_per_s,
-            double decisions_per_s) {
-    if (messages_ == nullptr) return;
-    if (!terminal_ && curve_.rows.size() > 1 && seconds_since(last_line_) < 60) return;
-    last_line_ = Clock::now();
-    const auto left = static_cast<double>(options.run.decisions - progress.decisions);
-    fmt::print(
-        messages_, "{}{} of {} decisions, {:.0f} steps/s, {:.2f} m, best {:.2f} m, {} left{}",
-        terminal_ ? "\r\033[K" : "", progress.decisions, options.run.decisions, steps_per_s,
-        distance_m_, progress.best_distance_m,
-        duration_text(decisions_per_s > 0 ? left / decisions_per_s : NAN), terminal_ ? "" : "\n");
-    std::fflush(messages_);
-    line_open_ = terminal_;
-  }
-
-  fs::path run_;
-  std::FILE* messages_;
-  bool terminal_, line_open_ = false;
-  Table curve_ = new_curve(), timing_ = new_timing();
-  double wall_before_s_ = 0, distance_m_ = 0;
-  std::int64_t last_decisions_ = 0, last_updates_ = 0;
-  Clock::time_point start_ = Clock::now(), last_row_ = start_, last_line_ = start_;
-};
 
 /// Updates that are due by now: a fixed share of the decisions after the warm-up.
 std::int64_t updates_due(const TrainOptions& options, const Progress& progress) {
@@ -259,7 +145,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
   else
     fs::remove_all(run / "replay");  // left by a kill before the first checkpoint
   Progress& progress = training.progress;
-  Journal journal(run, progress, messages);
+  Journal journal(run, new_curve(), progress, messages);
   ThreadPool pool(options.run.threads);
   Evaluator<Scalar> evaluator(options, potential, make_environment);
   TrainSummary summary;
@@ -282,7 +168,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     progress.sums = {};
     ++progress.rows;
     progress.last_row_decisions = progress.decisions;
-    journal.add_row(options, progress, row);
+    journal.add_row(options, progress, row.values());
   };
 
   ddpg::Batch<Scalar> batch;
@@ -373,6 +259,8 @@ TrainSummary train(const fs::path& run, const EnvironmentFactory& make_environme
   const FolderLock lock(run);
   remove_unfinished_files(run);
   remove_unfinished_files(run / "replay");
+  require(options.run.learner == "ddpg", "{}: run.learner = {}: this is the loop of ddpg",
+          run.string(), options.run.learner);
   const auto with = options.run.precision == "float" ? train_with<float> : train_with<double>;
   return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages);
 }

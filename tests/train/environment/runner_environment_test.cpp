@@ -52,6 +52,7 @@ TEST_P(Runner, UnderNips2017ObservesAndRewardsAsTheCompetitionDid) {
     under.rules = competition::Rules::nips2017;
     under.difficulty = scenario[0] == 'd' ? 2 : 0;
     under.accuracy = 1e-7;
+    under.late_positions = false;
     environment::RunnerEnvironment environment(model_, under);
     Eigen::VectorXd observation = environment.reset(1);
     const auto excitations = recorded_excitations(scenario[0] == 'd' ? "random_seed1" : scenario);

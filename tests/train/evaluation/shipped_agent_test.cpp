@@ -18,8 +18,8 @@ TEST_P(ShippedAgent, RunsWithItsLegsInTurn) {
   options.out = folder / "evaluation";
   const evaluation::Evaluation evaluation =
       evaluation::evaluate(STRIDE_SOURCE_DIR "/train/agents/stride", options);
-  EXPECT_GT(evaluation.distance_m, 35);  // 44.8 in either: the last digits decide
-  EXPECT_EQ(evaluation.falls, 0);
+  EXPECT_GT(evaluation.statistics.distance_m, 35);  // 44.8 in either: the last digits decide
+  EXPECT_EQ(evaluation.statistics.falls, 0);
   EXPECT_NEAR(evaluation.gait.leg_phase, 0.5, 0.1);
   EXPECT_TRUE(std::filesystem::exists(options.out / "evaluation.mot"));
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "extract/io/random.h"
+
 namespace stride {
 namespace {
 
@@ -29,6 +31,22 @@ TEST(Adam, FollowsAlgorithm1OfThePaper) {
     theta -= 0.05 * m_hat / (std::sqrt(v_hat) + 1e-3);
     adam.descend(x, g, 0.05);
     ASSERT_NEAR(x[0], theta, 1e-12) << "step " << t;
+  }
+}
+
+/// Without momentum a first step is rate · g / (√g² + ε): of every processor the same float.
+TEST(Adam, TakesTheRootOfIeee) {
+  network::Adam<float> adam{.options = {.beta1 = 0, .beta2 = 0}};
+  Random random(3);
+  Eigen::VectorXf g(4099), x = Eigen::VectorXf::Zero(4099);
+  for (float& value : g) value = static_cast<float>(std::exp(5 * normal(random)));
+  const Eigen::VectorXf gradient = g;
+  adam.descend(x, g, 0.125);
+  for (Eigen::Index i = 0; i < g.size(); ++i) {
+    volatile float square = gradient[i] * gradient[i];
+    volatile float root = std::sqrt(square);
+    volatile float below = root + 1e-8f;
+    ASSERT_EQ(x[i], -(0.125f * gradient[i]) / below) << gradient[i];
   }
 }
 

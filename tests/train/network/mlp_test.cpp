@@ -166,5 +166,13 @@ TEST(Mlp, AnUnknownActivationIsNamed) {
   EXPECT_ERROR(network::activation("selu"), "activation 'selu'");
 }
 
+/// Eigen splits products by them, and with the split the order of sums changes.
+TEST(Mlp, DoesNotDependOnTheCachesOfTheProcessor) {
+  const network::Mlp<float> linked(network::MlpShape{.inputs = 1, .outputs = 1});
+  EXPECT_EQ(Eigen::l1CacheSize(), 32 << 10);
+  EXPECT_EQ(Eigen::l2CacheSize(), 512 << 10);
+  EXPECT_EQ(Eigen::l3CacheSize(), 16 << 20);
+}
+
 }  // namespace
 }  // namespace stride

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "shaping/potential.h"
+#include "train/environment/environment.h"
+#include "train/environment/observation.h"
+#include "train/network/policy.h"
+#include "train/ppo/rollout_batch.h"
+
+namespace stride::ppo {
+
+/// What a slot remembers from one decision to the next, as a checkpoint keeps it. The environment
+/// is not in it: it is put back by repeating the episode's actions.
+struct SlotState {
+  Random random;
+  bool running = false;
+  std::uint64_t episode_seed = 0;
+  std::vector<std::uint8_t> actions;  // of the episode so far, one after the other
+  network::EpisodeSummary episode;
+  double simulated_s = 0;  // since the run began
+};
+
+/// One environment with what belongs to it. Slots share nothing that changes.
+class Slot {
+ public:
+  struct Setup {
+    int action_repeat = 3;
+    double gamma = 0.99;
+    const Potential* potential = nullptr;  // null: no shaping
+    double fall_reward = 0;
+  };
+
+  Slot(std::unique_ptr<environment::Environment> environment, environment::Observer observer,
+       const Setup& setup, std::uint64_t seed);
+
+  /// Features of the current state; starts an episode where none is running.
+  const Eigen::VectorXd& features();
+
+  struct Outcome {
+    float reward = 0;
+    End end = End::none;
+  };
+  /// Draws an action from the logits into `action` and repeats it. `alive_per_s`: reward of each
+  /// simulated second. After the end of an episode features() is the end's until begin_next().
+  Outcome decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
+                 Eigen::Ref<Vector> action);
+  void begin_next();
+
+  std::vector<network::EpisodeSummary> take_finished();
+
+  const SlotState& state() const { return state_; }
+  void restore(const SlotState& state);
+
+ private:
+  void reset();
+  Outcome repeat(double alive_per_s);
+  double phase() const;
+  double potential() const;
+
+  std::unique_ptr<environment::Environment> environment_;
+  environment::Observer observer_;
+  Setup setup_;
+  SlotState state_;
+  std::vector<network::EpisodeSummary> finished_;
+  Eigen::VectorXd features_, applied_;
+};
+
+}  // namespace stride::ppo

@@ -1,0 +1,188 @@
+#include "train/ppo/train.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "train/ppo/training.h"
+#include "train/training/checkpoint.h"
+#include "train/training/curve.h"
+#include "train/training/journal.h"
+#include "train/training/run_folder.h"
+
+namespace stride::ppo {
+namespace fs = std::filesystem;
+using network::EpisodeSummary;
+using training::TrainOptions;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kSharedColumns = 12;  // of the curve, with the other learner's
+
+Table new_ppo_curve() {
+  Table table = training::new_curve();
+  table.columns.resize(kSharedColumns);
+  for (const char* name : {"kl", "entropy", "value_loss", "explained_variance", "actor_rate"})
+    table.columns.push_back(name);
+  return table;
+}
+
+std::vector<double> row_of(const training::CurveRow& shared, const Training& training) {
+  std::vector<double> row = shared.values();
+  row.resize(kSharedColumns);
+  const Sums& sums = training.sums;
+  for (const double sum : {sums.kl, sums.entropy, sums.value_loss, sums.explained_variance})
+    row.push_back(sums.batches > 0 ? sum / sums.batches : NAN);
+  row.push_back(training.learner.rate());
+  return row;
+}
+
+double simulated_s(const Training& training) {
+  double total = 0;
+  for (const Slot& slot : training.slots) total += slot.state().simulated_s;
+  return total;
+}
+
+/// Where the agent is evaluated: without chance, as the rules start an episode. A lane is a
+/// thread's own environment.
+class Evaluator {
+ public:
+  Evaluator(const TrainOptions& options, const Potential* potential,
+            const training::EnvironmentFactory& make_environment, int threads)
+      : options_(options), potential_(potential) {
+    for (int i = 0; i < std::min(threads, options.run.evaluation_episodes); ++i) {
+      environments_.push_back(make_environment(-1));
+      observers_.push_back(
+          training::make_observer(options, potential, environments_.back()->spec()));
+    }
+  }
+
+  std::vector<EpisodeSummary> evaluate(const network::Policy<float>& policy,
+                                       training::ThreadPool& threads) {
+    std::vector<EpisodeSummary> episodes(
+        static_cast<std::size_t>(options_.run.evaluation_episodes));
+    const std::size_t lanes = environments_.size();
+    threads.run(static_cast<int>(lanes), [&](int lane) {
+      for (auto i = static_cast<std::size_t>(lane); i < episodes.size(); i += lanes)
+        episodes[i] = network::run_episode(policy, *environments_[static_cast<std::size_t>(lane)],
+                                           observers_[static_cast<std::size_t>(lane)], potential_,
+                                           options_.run.action_repeat, i, nullptr);
+    });
+    return episodes;
+  }
+
+ private:
+  const TrainOptions& options_;
+  const Potential* potential_;
+  std::vector<std::unique_ptr<environment::Environment>> environments_;
+  std::vector<environment::Observer> observers_;
+};
+
+/// One batch of decisions, and what is learnt from it. Empty, or why learning stopped.
+std::string learn(const TrainOptions& options, Training& training, training::ThreadPool& threads,
+                  RolloutBatch& batch) {
+  collect(options, training, threads, batch);
+  training.learner.assess(threads, batch);
+  const auto decisions = static_cast<double>(training.progress.decisions);
+  const UpdateReport report = training.learner.update(
+      batch, std::min(1.0, decisions / options.ppo.decay_decisions), training.random, threads);
+  if (!std::isfinite(report.kl + report.value_loss + report.actor_gradient))
+    return fmt::format(
+        "learning diverged after {} decisions: divergence {}, value loss {}; lower ppo.rate or "
+        "ppo.kl",
+        decisions, report.kl, report.value_loss);
+  training.normaliser.publish();
+  training.progress.updates += report.steps;
+  training.sums.batches += 1;
+  training.sums.kl += report.kl;
+  training.sums.entropy += report.entropy;
+  training.sums.value_loss += report.value_loss;
+  training.sums.explained_variance += report.explained_variance;
+  return {};
+}
+
+/// The loop.
+training::TrainSummary train_with(const TrainOptions& options, const Potential* potential,
+                                  const fs::path& run,
+                                  const training::EnvironmentFactory& make_environment,
+                                  const std::atomic<bool>& stop, std::FILE* messages) {
+  Training training = start_training(options, potential, make_environment);
+  if (fs::exists(training::checkpoint_file(run))) load_checkpoint(training, run);
+  training::Progress& progress = training.progress;
+  training::Journal journal(run, new_ppo_curve(), progress, messages);
+  training::ThreadPool threads(options.run.threads);
+  Evaluator evaluator(options, potential, make_environment, threads.size());
+  training::TrainSummary summary;
+
+  const auto evaluate = [&] {
+    const network::Policy<float> policy = policy_of(training);
+    const training::CurveRow shared =
+        training::curve_row(progress, simulated_s(training), evaluator.evaluate(policy, threads));
+    summary.distance_m = shared.evaluation_distance_m;
+    std::vector<double> row = row_of(shared, training);
+    const auto keep_as = [&](const char* name) {
+      journal.keep([&] {
+        network::save_policy(policy, training.feature_names, training.action_names,
+                             options.run.action_repeat, run / name);
+      });
+    };
+    keep_as("agent.safetensors");
+    if (summary.distance_m > progress.best_distance_m) {
+      progress.best_distance_m = summary.distance_m;
+      keep_as("best.safetensors");
+    }
+    ++progress.rows;
+    progress.last_row_decisions = progress.decisions;
+    journal.add_row(options, progress, std::move(row));
+    progress.sums = {};
+    training.sums = {};
+  };
+
+  RolloutBatch batch;
+  auto last_checkpoint = Clock::now();
+  for (;;) {
+    if (progress.decisions >= progress.next_evaluation) {
+      evaluate();
+      progress.next_evaluation += options.run.evaluate_every;
+    }
+    if (stop || progress.decisions >= options.run.decisions) break;
+    summary.divergence = learn(options, training, threads, batch);
+    if (!summary.divergence.empty()) return summary;  // the last good checkpoint stays
+    if (std::chrono::duration<double>(Clock::now() - last_checkpoint).count() >
+        options.run.checkpoint_s) {
+      journal.keep([&] { save_checkpoint(training, run); });
+      last_checkpoint = Clock::now();
+    }
+  }
+  try {
+    save_checkpoint(training, run);
+    summary.finished = progress.decisions >= options.run.decisions;
+    // After the checkpoint, so that a run that is continued with more decisions has no row that an
+    // uninterrupted one would not have.
+    if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
+    if (progress.rows > 0) journal.save_rows();
+  } catch (const Error& error) {
+    summary.unsaved = error.what();
+  }
+  summary.progress = progress;
+  return summary;
+}
+
+}  // namespace
+
+training::TrainSummary train(const fs::path& run,
+                             const training::EnvironmentFactory& make_environment,
+                             const std::atomic<bool>& stop, std::FILE* messages) {
+  const TrainOptions options = training::load_run_options(run);
+  const std::optional<Potential> potential =
+      training::load_run_demonstration(options, run).potential;
+  const training::FolderLock lock(run);
+  training::remove_unfinished_files(run);
+  return train_with(options, potential ? &*potential : nullptr, run, make_environment, stop,
+                    messages);
+}
+
+}  // namespace stride::ppo

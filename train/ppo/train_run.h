@@ -1,0 +1,13 @@
+#pragma once
+
+#include "train/training/train.h"
+
+namespace stride {
+
+/// Trains the run in that folder as training::train() does, by the learner that its configuration
+/// names.
+training::TrainSummary train_run(const std::filesystem::path& run,
+                                 const training::EnvironmentFactory& make_environment,
+                                 const std::atomic<bool>& stop, std::FILE* messages);
+
+}  // namespace stride

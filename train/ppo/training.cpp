@@ -1,0 +1,123 @@
+#include "train/ppo/training.h"
+
+#include <algorithm>
+
+namespace stride::ppo {
+namespace {
+
+/// Streams of random numbers of a run.
+enum Stream : std::uint64_t { kLearner = 1, kWeights = 2, kFirstSlot = 1000 };
+
+/// Environments share a product of matrices in groups of this size, whatever the threads.
+constexpr int kGroup = 8;
+
+}  // namespace
+
+Training start_training(const training::TrainOptions& options, const Potential* potential,
+                        const training::EnvironmentFactory& make_environment) {
+  const std::unique_ptr<environment::Environment> example = make_environment(-1);
+  const environment::EnvironmentSpec& spec = example->spec();
+  const environment::Observer observer = training::make_observer(options, potential, spec);
+  const environment::Mirror features = environment::mirror_by_name(observer.names());
+  const auto seed = static_cast<std::uint64_t>(options.run.seed);
+  Random weights(stream_seed(seed, kWeights));
+  Training training{.feature_names = observer.names(),
+                    .action_names = spec.action_names,
+                    .random = Random(stream_seed(seed, kLearner)),
+                    .learner = Learner(options.ppo, features,
+                                       environment::mirror_by_name(spec.action_names), weights),
+                    .normaliser = network::Normaliser(features),
+                    .slots = {},
+                    .progress = {},
+                    .sums = {}};
+  for (int slot = 0; slot < options.run.environments; ++slot)
+    training.slots.emplace_back(make_environment(slot), observer,
+                                Slot::Setup{.action_repeat = options.run.action_repeat,
+                                            .gamma = options.ppo.gamma,
+                                            .potential = potential,
+                                            .fall_reward = options.reward.fall},
+                                stream_seed(seed, kFirstSlot + static_cast<std::uint64_t>(slot)));
+  return training;
+}
+
+network::Policy<float> policy_of(const Training& training) {
+  network::MlpShape shape = training.learner.actor().shape();
+  shape.output = network::Activation::sigmoid;
+  network::Policy<float> policy{.actor = network::Mlp<float>(shape),
+                                .normaliser = training.normaliser};
+  policy.actor.parameters() = training.learner.actor().parameters();
+  return policy;
+}
+
+void collect(const training::TrainOptions& options, Training& training,
+             training::ThreadPool& threads, RolloutBatch& batch) {
+  const int n = options.run.environments, steps = options.ppo.horizon;
+  const auto features = static_cast<Eigen::Index>(training.feature_names.size());
+  const auto actions = static_cast<Eigen::Index>(training.action_names.size());
+  batch.environments = n;
+  batch.steps = steps;
+  batch.states.resize(features, (steps + 1) * n);
+  batch.actions.resize(actions, steps * n);
+  batch.logits.resize(actions, steps * n);
+  batch.rewards.resize(steps * n);
+  batch.ends.assign(static_cast<std::size_t>(steps * n), End::none);
+  Eigen::MatrixXd observed(features, (steps + 1) * n);             // not normalised
+  std::vector<Matrix> after(static_cast<std::size_t>(steps * n));  // s′ where it was truncated
+
+  const Options& ppo = options.ppo;
+  const double age =
+      std::min(1.0, static_cast<double>(training.progress.decisions) / ppo.alive_decisions);
+  const double alive_per_s = ppo.alive_per_s + age * (ppo.final_alive_per_s - ppo.alive_per_s);
+
+  threads.run((n + kGroup - 1) / kGroup, [&](int group) {
+    const int begin = group * kGroup, size = std::min(kGroup, n - begin);
+    network::Mlp<float>::Workspace work;
+    Matrix states(features, size);
+    const auto see = [&](int first) {
+      for (int i = 0; i < size; ++i)
+        observed.col(first + i) = training.slots[static_cast<std::size_t>(begin + i)].features();
+      states = observed.middleCols(first, size).cast<float>();
+      training.normaliser.apply(states);
+      batch.states.middleCols(first, size) = states;
+    };
+    for (int t = 0; t < steps; ++t) {
+      see(t * n + begin);
+      const Matrix& logits = training.learner.actor().forward(states, work);
+      for (int i = 0; i < size; ++i) {
+        const int column = t * n + begin + i;
+        Slot& slot = training.slots[static_cast<std::size_t>(begin + i)];
+        batch.logits.col(column) = logits.col(i);
+        const auto [reward, end] =
+            slot.decide(batch.logits.col(column), alive_per_s, batch.actions.col(column));
+        batch.rewards[column] = reward;
+        batch.ends[static_cast<std::size_t>(column)] = end;
+        if (end == End::truncated) {
+          Matrix& state = after[static_cast<std::size_t>(column)];
+          state = slot.features().cast<float>();
+          training.normaliser.apply(state);
+        }
+        if (end != End::none) slot.begin_next();
+      }
+    }
+    see(steps * n + begin);
+  });
+
+  std::erase_if(after, [](const Matrix& state) { return state.size() == 0; });
+  batch.truncated_states.resize(features, static_cast<Eigen::Index>(after.size()));
+  for (std::size_t i = 0; i < after.size(); ++i)
+    batch.truncated_states.col(static_cast<Eigen::Index>(i)) = after[i];
+  for (Eigen::Index i = 0; i < steps * n; ++i) training.normaliser.add(observed.col(i));
+  training::Progress& progress = training.progress;
+  progress.decisions += batch.decisions();
+  for (Slot& slot : training.slots)
+    for (const network::EpisodeSummary& episode : slot.take_finished()) {
+      ++progress.episodes;
+      progress.falls += episode.fell;
+      progress.failures += episode.failed;
+      progress.sums.episodes += 1;
+      progress.sums.distance_m += episode.distance_m;
+      progress.sums.reward += episode.reward;
+    }
+}
+
+}  // namespace stride::ppo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "train/network/normaliser.h"
+#include "train/ppo/learner.h"
+#include "train/ppo/slot.h"
+#include "train/training/training.h"
+
+namespace stride::ppo {
+
+/// Of the batches since the last row of the curve.
+struct Sums {
+  double batches = 0, kl = 0, entropy = 0, value_loss = 0, explained_variance = 0;
+};
+
+/// Everything that changes while a run goes on.
+struct Training {
+  std::vector<std::string> feature_names, action_names;
+  Random random;  // of the learner
+  Learner learner;
+  network::Normaliser normaliser;
+  std::vector<Slot> slots;
+  training::Progress progress;
+  Sums sums;
+};
+
+/// The beginning of a run. `potential` may be null, and must outlive the training.
+Training start_training(const training::TrainOptions& options, const Potential* potential,
+                        const training::EnvironmentFactory& make_environment);
+
+/// The agent without chance: each excitation is the probability that training would draw a 1 with.
+network::Policy<float> policy_of(const Training& training);
+
+/// Makes `horizon` decisions in every environment by the policy of the moment.
+void collect(const training::TrainOptions& options, Training& training,
+             training::ThreadPool& threads, RolloutBatch& batch);
+
+/// RUN/checkpoint.safetensors, written atomically.
+void save_checkpoint(const Training& training, const std::filesystem::path& run);
+/// Throws Error naming the file and what is wrong with it.
+void load_checkpoint(Training& training, const std::filesystem::path& run);
+
+}  // namespace stride::ppo

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "extract/io/error.h"
+#include "extract/io/table.h"
+#include "train/training/training.h"
+
+namespace stride::training {
+
+/// The files that grow while training, and the line that tells how it goes.
+class Journal {
+ public:
+  /// `curve`: an empty one. `messages` may be null.
+  Journal(const std::filesystem::path& run, const Table& curve, const Progress& progress,
+          std::FILE* messages);
+
+  /// A row of the curve, which has a column evaluation_distance_m.
+  void add_row(const TrainOptions& options, const Progress& progress, std::vector<double> row);
+
+  /// Does what writes to the disk; a failure is reported, and training goes on.
+  template <typename Write>
+  void keep(const Write& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      say("warning: {}; training goes on, writing is tried again later", error.what());
+    }
+  }
+
+  void save_rows() const;
+
+  template <typename... Args>
+  void say(fmt::format_string<Args...> text, Args&&... args) {
+    if (messages_ == nullptr) return;
+    fmt::print(messages_, "{}{}\n", std::exchange(line_open_, false) ? "\n" : "",
+               fmt::format(text, std::forward<Args>(args)...));
+    std::fflush(messages_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void tell(const TrainOptions& options, const Progress& progress, double steps_per_s,
+            double decisions_per_s);
+
+  std::filesystem::path run_;
+  std::FILE* messages_;
+  bool terminal_, line_open_ = false;
+  Table curve_, timing_;
+  double wall_before_s_ = 0, distance_m_ = 0;
+  std::int64_t last_decisions_ = 0, last_updates_ = 0;
+  Clock::time_point start_ = Clock::now(), last_row_ = start_, last_line_ = start_;
+};
+
+}  // namespace stride::training
