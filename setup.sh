@@ -8,6 +8,8 @@ packages="
   libpugixml-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libfmt-dev libssl-dev libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
   gnuplot-nox clang-format
+  python3-dev python3-numpy pybind11-dev
+  libopenmpi-dev openmpi-bin
 "
 
 missing=""
