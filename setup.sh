@@ -17,6 +17,8 @@ packages="
   libpugixml-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libfmt-dev libssl-dev libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
   gnuplot-nox clang-format
+  python3-dev python3-numpy pybind11-dev
+  libopenmpi-dev openmpi-bin
 "
 
 [ -z "$with_pose" ] || command -v npm >/dev/null || packages="$packages npm"

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// The rooms in the order of the pipeline. A room includes from itself and from rooms above it in
 /// this list. `commands` are the files of the command line, which know everything in their folder.
 const std::vector<std::string> kRooms{
-    "extract/io", "extract/skeleton", "extract/video", "extract/import/parsing",
+    "extract/io", "extract/parallel", "extract/skeleton", "extract/video", "extract/import/parsing",
     "extract/import/formats", "extract/import", "extract/pose/tflite", "extract/pose",
     "extract/tracking/gaussian_process", "extract/tracking", "extract/annotation",
     "extract/annotation/session", "extract/commands",
@@ -32,7 +32,7 @@ const std::vector<std::string> kRooms{
     "train/simulation/simd", "train/simulation/simbody", "train/simulation/planar",
     "train/simulation/competition", "train/simulation", "train/environment", "train/network",
     "train/ddpg", "train/training", "train/ppo", "train/rollout", "train/film", "train/evaluation",
-    "train/experiments", "train/commands"};
+    "train/experiments", "train/page", "train/python", "train/commands"};
 
 constexpr std::size_t kMostUnits = 12;  // of a room
 constexpr std::size_t kLargestKnot = 2;

@@ -11,6 +11,7 @@ void add_evaluate_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_train_command(CLI::App& app);
 
@@ -20,6 +21,7 @@ void add_train_commands(CLI::App& app) {
   add_export_command(app);
   add_plot_command(app);
   add_experiment_command(app);
+  add_report_command(app);
   add_compare_command(app);
   add_simulate_command(app);
   add_bench_command(app);

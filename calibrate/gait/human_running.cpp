@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "extract/io/data_file.h"
 #include "extract/io/table.h"
 
 namespace stride::gait {
@@ -16,7 +17,7 @@ double HumanRunning::at(const std::vector<double>& curve, double at_phase) const
 }
 
 HumanRunning load_human_running() {
-  const Table table = load_csv(std::filesystem::path(STRIDE_CALIBRATE_DATA) / "human_running.csv");
+  const Table table = load_csv(data_file("calibrate/data/human_running.csv"));
   const auto column = [&](const std::string& name, double unit) {
     std::vector<double> values;
     for (const auto& row : table.rows) values.push_back(unit * row[table.column(name)]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 
 namespace stride::osim {
@@ -41,7 +42,7 @@ std::string describe(const Model& model) {
 }
 
 std::filesystem::path default_model_file() {
-  return std::filesystem::path(STRIDE_MODELS_FOLDER) / "gait9dof18musc.osim";
+  return data_file("calibrate/models/gait9dof18musc.osim");
 }
 
 }  // namespace stride::osim

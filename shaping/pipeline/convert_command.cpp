@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "extract/io/error.h"
+#include "extract/parallel/ranks.h"
 #include "shaping/commands.h"
 #include "shaping/pipeline/convert.h"
 
@@ -30,6 +31,18 @@ void run(ConvertCommand command) {
   options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
 
   const auto inputs = pipeline::expand_inputs(command.inputs);
+  parallel::Ranks& ranks = parallel::Ranks::world();
+  if (ranks.size() > 1) {
+    // Each rank converts its share; then the first one finds it done, and tells of all.
+    std::vector<std::filesystem::path> share;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (ranks.owns(static_cast<int>(i))) share.push_back(inputs[i]);
+    pipeline::convert(share, options);
+    ranks.wait_for_all();
+    if (!ranks.first()) return;
+    options.again = false;
+    options.progress = nullptr;
+  }
   const std::vector<pipeline::Converted> results = pipeline::convert(inputs, options);
   fmt::print("{}", pipeline::table_of(results));
   const auto failures = std::ranges::count_if(results, &pipeline::Converted::failed);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "train/commands.h"
 #include "train/simulation/bench.h"
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 struct Arguments {
-  std::string engine, model;
+  std::string engine, model, workload = "both";
   simulation::BenchOptions bench;
   int rollouts = 24;
   bool json = false, accuracy_table = false;
@@ -24,6 +25,7 @@ struct Arguments {
 
 nlohmann::ordered_json to_json(const simulation::BenchResult& r) {
   return {{"engine", r.engine},
+          {"workload", r.workload},
           {"steps_per_s", r.steps_per_s()},
           {"realtime_factor", r.realtime_factor()},
           {"evaluations_per_step", r.evaluations_per_step()},
@@ -43,25 +45,25 @@ nlohmann::ordered_json to_json(const simulation::BenchResult& r) {
 }
 
 /// One object; of two engines the fields are those of the default one, and `engines` holds both.
-void print_json(const std::vector<simulation::BenchResult>& results) {
+nlohmann::ordered_json to_json(const std::vector<simulation::BenchResult>& results) {
   nlohmann::ordered_json object = to_json(results.back());
   if (results.size() > 1) {
     object["engines"] = json::array();
     for (const simulation::BenchResult& each : results) object["engines"].push_back(to_json(each));
     object["times_as_fast"] = results.back().steps_per_cpu_s() / results.front().steps_per_cpu_s();
   }
-  fmt::print("{}\n", object.dump(2));
+  return object;
 }
 
 void print_table(const std::vector<simulation::BenchResult>& results) {
-  fmt::print("{:8} {:>8} {:>10} {:>10} {:>10} {:>9} {:>10} {:>8} {:>9} {:>8}\n", "engine",
-             "threads", "steps/s", "steps/s/c", "x realtime", "evals/st", "us/eval", "falls",
-             "failures", "MiB");
+  fmt::print("{:8} {:8} {:>8} {:>10} {:>10} {:>10} {:>9} {:>10} {:>8} {:>9} {:>8}\n", "engine",
+             "workload", "threads", "steps/s", "steps/s/c", "x realtime", "evals/st", "us/eval",
+             "falls", "failures", "MiB");
   for (const simulation::BenchResult& r : results) {
-    fmt::print("{:8} {:8} {:10.0f} {:10.0f} {:10.1f} {:9.1f} {:10.3f} {:8} {:9} {:8.1f}\n",
-               r.engine, r.threads, r.steps_per_s(), r.steps_per_cpu_s(), r.realtime_factor(),
-               r.evaluations_per_step(), r.us_per_evaluation(), r.falls, r.failures,
-               r.resident_MiB);
+    fmt::print("{:8} {:8} {:8} {:10.0f} {:10.0f} {:10.1f} {:9.1f} {:10.3f} {:8} {:9} {:8.1f}\n",
+               r.engine, r.workload, r.threads, r.steps_per_s(), r.steps_per_cpu_s(),
+               r.realtime_factor(), r.evaluations_per_step(), r.us_per_evaluation(), r.falls,
+               r.failures, r.resident_MiB);
   }
   for (const simulation::BenchResult& r : results) {
     if (!r.first_failure.empty()) {
@@ -122,8 +124,21 @@ void run(const Arguments& arguments) {
   std::vector<std::string> engines(simulation::kEngineNames.begin(),
                                    simulation::kEngineNames.end());
   if (!arguments.engine.empty()) engines = {arguments.engine};
-  const std::vector<simulation::BenchResult> results = simulation::bench(engines, model, options);
-  arguments.json ? print_json(results) : print_table(results);
+  std::vector<simulation::BenchResult> random, running;
+  if (arguments.workload != "running") random = simulation::bench(engines, model, options);
+  if (arguments.workload != "random") {
+    simulation::BenchOptions recorded = options;
+    recorded.running = simulation::load_recording(data_file("train/agents/stride/running.csv"));
+    running = simulation::bench(engines, model, recorded);
+  }
+  if (!arguments.json) {
+    std::vector<simulation::BenchResult> all = random;
+    all.insert(all.end(), running.begin(), running.end());
+    return print_table(all);
+  }
+  nlohmann::ordered_json object = to_json(random.empty() ? running : random);
+  if (!random.empty() && !running.empty()) object["running"] = to_json(running);
+  fmt::print("{}\n", object.dump(2));
 }
 
 }  // namespace
@@ -132,10 +147,15 @@ void add_bench_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
-      "bench", "How fast the simulation is: random excitations, episodes restarted at a fall");
+      "bench", "How fast the simulation is, under random excitations and under those of a run");
   command->add_option("--engine", a.engine, "simbody or planar; without: both, side by side");
   command->add_option("--model", a.model, "an OpenSim model; default: the runner that ships");
-  command->add_option("--seconds", a.bench.seconds, "of wall time for each engine")
+  command
+      ->add_option("--workload", a.workload,
+                   "random excitations, which fall; running: those of a recorded run; or both")
+      ->check(CLI::IsMember({"random", "running", "both"}))
+      ->capture_default_str();
+  command->add_option("--seconds", a.bench.seconds, "of wall time for each engine and workload")
       ->capture_default_str();
   command->add_option("--steps", a.bench.steps,
                       "this many steps of 0.01 s on each thread instead of --seconds");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "extract/io/error.h"
+#include "extract/parallel/ranks.h"
 #include "train/experiments/experiment.h"
 #include "train/training/interrupt.h"
 
@@ -17,6 +18,7 @@ struct Request {
   std::vector<std::string> settings;
   std::optional<int> seeds;
   std::optional<std::int64_t> decisions;
+  bool list = false;
   experiments::ExperimentOptions options;
 };
 
@@ -48,15 +50,26 @@ void experiment_as_requested(const Request& request) {
   const std::filesystem::path file = experiments::experiment_file(request.name);
   options.experiment = experiments::load_experiment(file, settings);
   if (request.seeds) options.experiment.seeds = *request.seeds;
+  if (request.list) {
+    for (const std::string& name : experiments::run_names(options.experiment))
+      fmt::print("{}\n", name);
+    return;
+  }
+  require(options.only.empty() || !options.merge, "--only and --merge: give one of them");
   if (!request.potential.empty()) replace_potential(request.potential, options.experiment.arms);
   if (options.runs.empty())
     options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
   if (options.report.empty()) options.report = options.runs / "report";
   options.command = command_of(request);
-  if (experiments::run_experiment(options, training::stopped_by({SIGINT, SIGTERM}), stderr))
+  const bool finished =
+      experiments::run_experiment(options, training::stopped_by({SIGINT, SIGTERM}), stderr);
+  if (!parallel::Ranks::world().first()) return;
+  if (!finished)
+    fmt::print("stopped and saved; give the same command again to continue\n");
+  else if (options.only.empty())
     fmt::print("{}\n", (options.report / "results.md").string());
   else
-    fmt::print("stopped and saved; give the same command again to continue\n");
+    fmt::print("{}\n", options.runs.string());
 }
 
 }  // namespace
@@ -76,6 +89,11 @@ void add_experiment_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
   command->add_option("--jobs", options.jobs, "Runs side by side")->capture_default_str();
+  command->add_flag("--list", request->list, "Only print the runs, ARM/SEED, a line each");
+  command->add_option("--only", options.only,
+                      "Only these runs, ARM/SEED, without a report: for an array of jobs");
+  command->add_flag("--merge", options.merge,
+                    "Train nothing: report over the seeds that are finished in every arm");
   command->add_option("--set", request->settings,
                       "One setting of every arm that does not say otherwise");
   command->add_option("--out", options.runs, "Folder of the runs; runs/NAME if not given");

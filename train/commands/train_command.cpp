@@ -5,6 +5,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/parallel/ranks.h"
 #include "train/ppo/train_run.h"
 #include "train/training/interrupt.h"
 #include "train/training/runner_factory.h"
@@ -65,17 +66,21 @@ fs::path resume(const Request& request) {
 }
 
 void train_as_requested(const Request& request) {
-  const fs::path run = request.resume.empty() ? begin(request) : resume(request);
+  parallel::Ranks& ranks = parallel::Ranks::world();
+  fs::path run = request.resume.empty() ? request.out : request.resume;
+  if (ranks.first()) run = request.resume.empty() ? begin(request) : resume(request);
+  ranks.wait_for_all();  // for the folder
   const std::atomic<bool>& interrupted = training::stopped_by({SIGINT, SIGTERM});
   const training::TrainOptions options = training::load_run_options(run);
   const training::EnvironmentFactory runners =
       training::make_runners(options.environment, training::load_run_demonstration(options, run));
-  const training::TrainSummary summary = train_run(run, runners, interrupted, stderr);
+  const training::TrainSummary summary = train_run(run, runners, interrupted, stderr, ranks);
   require(summary.divergence.empty(), "{}: {}; the last good checkpoint is kept", run.string(),
           summary.divergence);
   require(summary.unsaved.empty(),
           "{}: {}; make room, then continue from the checkpoint before: stride train --resume {}",
           run.string(), summary.unsaved, run.string());
+  if (!ranks.first()) return;
   if (!summary.finished)
     fmt::print(stderr, "\nstopped and saved; continue with: stride train --resume {}\n",
                run.string());

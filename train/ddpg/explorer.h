@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "shaping/potential.h"
@@ -68,9 +69,19 @@ class Explorer {
   /// Episodes that ended since the last call.
   std::vector<network::EpisodeSummary> take_finished();
 
+  const std::vector<network::EpisodeSummary>& finished() const { return finished_; }
+
   const ExplorerState<Scalar>& state() const { return state_; }
   /// Continues from a stored state.
   void restore(const ExplorerState<Scalar>& state);
+
+  /// What another process did with this slot, where nobody decides here: the simulated time of the
+  /// run and the episodes that ended; or its whole state, for a checkpoint.
+  void take_over(double simulated_s, std::vector<network::EpisodeSummary> finished) {
+    state_.simulated_s = simulated_s;
+    finished_ = std::move(finished);
+  }
+  void take_over(const ExplorerState<Scalar>& state) { state_ = state; }
 
  private:
   void start_episode(const network::Policy<Scalar>& policy, const ReplayBuffer<Scalar>& buffer);

@@ -1,11 +1,15 @@
 #include "train/experiments/experiment.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
+#include <set>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/parallel/ranks.h"
 #include "train/experiments/experiment_report.h"
 #include "train/ppo/train_run.h"
 #include "train/training/runner_factory.h"
@@ -28,6 +32,31 @@ std::vector<Job> jobs_of(const ExperimentOptions& options) {
     for (const ExperimentArm& arm : options.experiment.arms)
       jobs.push_back({&arm, seed, options.runs / arm.name / std::to_string(seed)});
   return jobs;
+}
+
+std::string name_of(const Job& job) { return fmt::format("{}/{}", job.arm->name, job.seed); }
+
+/// Those that were asked for.
+void keep_only(const std::vector<std::string>& names, std::vector<Job>& jobs) {
+  std::vector<std::string> known;
+  for (const Job& job : jobs) known.push_back(name_of(job));
+  for (const std::string& name : names)
+    require(std::ranges::find(known, name) != known.end(), "--only {}: must be one of {}", name,
+            fmt::join(known, ", "));
+  std::erase_if(
+      jobs, [&](const Job& job) { return std::ranges::find(names, name_of(job)) == names.end(); });
+}
+
+/// The seeds that are finished in every arm, since arms are compared seed by seed.
+void keep_finished(std::FILE* messages, std::vector<Job>& jobs) {
+  std::set<int> missing;
+  for (const Job& job : jobs)
+    if (!fs::exists(job.run / "finished")) {
+      fmt::print(messages, "{}: is not finished; seed {} is left out\n", name_of(job), job.seed);
+      missing.insert(job.seed);
+    }
+  std::erase_if(jobs, [&](const Job& job) { return missing.contains(job.seed); });
+  require(!jobs.empty(), "no seed is finished in every arm: there is nothing to report yet");
 }
 
 void begin(const Job& job) {
@@ -71,23 +100,7 @@ void copy_runs(const std::vector<Job>& jobs, const fs::path& report) {
   }
 }
 
-}  // namespace
-
-bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
-                    std::FILE* messages) {
-  const std::vector<Job> jobs = jobs_of(options);
-  for (const Job& job : jobs) begin(job);
-  training::ThreadPool pool(options.jobs);
-  pool.run(static_cast<int>(jobs.size()), [&](int i) {
-    const Job& job = jobs[static_cast<std::size_t>(i)];
-    if (stop || fs::exists(job.run / "finished")) return;
-    fmt::print(messages, "{} seed {}: begins\n", job.arm->name, job.seed);
-    const std::string outcome = work_on(job, stop);
-    fmt::print(messages, "{} seed {}: {}\n", job.arm->name, job.seed, outcome);
-    std::fflush(messages);
-  });
-  if (stop) return false;
-
+void write_report(const std::vector<Job>& jobs, const ExperimentOptions& options) {
   std::vector<fs::path> runs;
   for (const Job& job : jobs) runs.push_back(job.run);
   const std::vector<Arm> arms = arms_of(runs);
@@ -98,6 +111,47 @@ bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& s
                                           experiment.decisions, options.command));
   for (const char* against : {"decisions", "wall"})
     plot(arms, {.against = against, .out = options.report / against});
+}
+
+}  // namespace
+
+std::vector<std::string> run_names(const ExperimentFile& experiment) {
+  ExperimentOptions options;
+  options.experiment = experiment;
+  std::vector<std::string> names;
+  for (const Job& job : jobs_of(options)) names.push_back(name_of(job));
+  return names;
+}
+
+bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
+                    std::FILE* messages) {
+  parallel::Ranks& ranks = parallel::Ranks::world();
+  std::vector<Job> all = jobs_of(options);
+  if (options.merge) {
+    if (!ranks.first()) return true;
+    keep_finished(messages, all);
+    write_report(all, options);
+    return true;
+  }
+  if (!options.only.empty()) keep_only(options.only, all);
+  std::vector<Job> jobs;  // of this rank
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (ranks.owns(static_cast<int>(i))) jobs.push_back(all[i]);
+  for (const Job& job : jobs) begin(job);
+  training::ThreadPool pool(options.jobs);
+  pool.run(static_cast<int>(jobs.size()), [&](int i) {
+    const Job& job = jobs[static_cast<std::size_t>(i)];
+    if (stop || fs::exists(job.run / "finished")) return;
+    fmt::print(messages, "{} seed {}: begins\n", job.arm->name, job.seed);
+    const std::string outcome = work_on(job, stop);
+    fmt::print(messages, "{} seed {}: {}\n", job.arm->name, job.seed, outcome);
+    std::fflush(messages);
+  });
+  bool stopped = false;
+  for (const std::string& each : ranks.gather(stop ? "stopped" : "")) stopped |= !each.empty();
+  if (stopped) return false;
+  if (ranks.first() && options.only.empty()) write_report(all, options);
+  ranks.wait_for_all();
   return true;
 }
 

@@ -15,10 +15,19 @@ struct ExperimentOptions {
   std::filesystem::path runs;    // folder of the run folders: <arm>/<seed>
   std::filesystem::path report;  // where curves, configurations and figures are copied to
   std::string command;           // as it was given, for the report
+  /// Runs to do, as "ARM/SEED"; empty: all. With it there is no report: others may be at work.
+  std::vector<std::string> only;
+  bool merge = false;  // train nothing: report over the runs that are there
 };
 
+/// All runs of the experiment, as "ARM/SEED", in the order in which they are done.
+std::vector<std::string> run_names(const ExperimentFile& experiment);
+
 /// Runs what is not done yet, continuing runs that were interrupted; then writes the report:
-/// curves, configurations, results.md and the figures. Returns false if it was stopped.
+/// curves, configurations, results.md and the figures. Returns false if it was stopped. The ranks
+/// of mpirun share the runs, and the first one writes the report. To merge is to report over the
+/// seeds that are finished in every arm; `messages` is told which runs are missing. Throws Error if
+/// none is left, or for a run that the experiment does not have.
 bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
                     std::FILE* messages);
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 
 namespace stride::experiments {
@@ -76,7 +77,7 @@ ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
 
 fs::path experiment_file(const std::string& name) {
   if (name.ends_with(".toml")) return name;
-  const fs::path folder = STRIDE_EXPERIMENTS;
+  const fs::path folder = data_file("train/results");
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
     if (fs::exists(entry.path() / "experiment.toml")) names.insert(entry.path().filename());

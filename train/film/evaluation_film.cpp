@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "calibrate/runner/calibrated.h"
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "extract/video/video_writer.h"
 #include "train/film/film.h"
@@ -26,7 +27,9 @@ fs::path sibling(const fs::path& video, const fs::path& other, const char* exten
 }  // namespace
 
 std::optional<SourceStride> find_source(const Potential& potential, const fs::path& near) {
-  for (const fs::path& folder : {near, near.parent_path(), fs::path(STRIDE_VIDEOS)}) {
+  std::vector<fs::path> folders{near, near.parent_path()};
+  for (const fs::path& folder : data_folders()) folders.push_back(folder / "videos");
+  for (const fs::path& folder : folders) {
     const fs::path video = folder / fs::path(potential.source).filename();
     if (potential.source.empty() || !fs::exists(video)) continue;
     const fs::path calibrated = sibling(video, near, ".calibrated.csv");

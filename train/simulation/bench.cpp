@@ -19,7 +19,7 @@ namespace stride::simulation {
 namespace {
 
 constexpr double kStep_s = 0.01;
-constexpr int kHeldSteps = 10, kEpisodeSteps = 1000;
+constexpr int kHeldSteps = 10, kEpisodeSteps = 1000, kRecordedSteps = 100;
 constexpr double kFallHeight_m = 0.65;
 
 double wall_s() {
@@ -47,8 +47,10 @@ class Runner {
       : engine_(simulation::make_engine(name, model, options.engine)),
         start_(simulation::default_state(model)),
         obstacles_(options.obstacles),
+        running_(options.running ? &*options.running : nullptr),
         random_(seed) {
     result_.engine = name;
+    result_.workload = running_ ? "running" : "random";
     begin_episode();
   }
 
@@ -64,6 +66,11 @@ class Runner {
   Engine& engine() { return *engine_; }
 
   void begin_episode() {
+    step_ = 0;
+    if (running_) {
+      engine_->set_state(running_->states[begin_]);
+      return;
+    }
     std::vector<Obstacle> obstacles;
     for (int i = 0; i < obstacles_; ++i) {
       const double radius = 0.05 + 0.1 * uniform(random_);
@@ -73,14 +80,15 @@ class Runner {
     engine_->set_obstacles(obstacles);
     engine_->set_state(start_);
     engine_->equilibrate_fibers();
-    step_ = 0;
   }
 
   /// False at the end of an episode.
   bool step_once() {
-    if (step_++ % kHeldSteps == 0) {
+    if (running_)
+      excitations_ = running_->excitations[begin_ + static_cast<std::size_t>(step_)];
+    else if (step_ % kHeldSteps == 0)
       for (double& e : excitations_) e = uniform(random_);
-    }
+    ++step_;
     const AdvanceReport report = engine_->advance(excitations_, kStep_s);
     ++result_.steps;
     result_.evaluations += report.evaluations;
@@ -90,7 +98,8 @@ class Runner {
       if (result_.failures++ == 0) result_.first_failure = report.failure;
       return false;
     }
-    const bool fell = engine_->state().q[kPelvisY] < kFallHeight_m, late = step_ >= kEpisodeSteps;
+    const bool fell = engine_->state().q[kPelvisY] < kFallHeight_m;
+    const bool late = running_ ? step_ >= kRecordedSteps || at_end() : step_ >= kEpisodeSteps;
     result_.falls += fell;
     result_.time_limits += late && !fell;
     return !fell && !late;
@@ -98,12 +107,19 @@ class Runner {
 
  private:
   void step() {
-    if (!step_once()) begin_episode();
+    if (step_once()) return;
+    if (running_) begin_ = at_end() ? 0 : begin_ + static_cast<std::size_t>(step_);
+    begin_episode();
+  }
+  bool at_end() const {
+    return begin_ + static_cast<std::size_t>(step_) >= running_->states.size();
   }
 
   std::unique_ptr<Engine> engine_;
   RunnerState start_;
   int obstacles_;
+  const Recording* running_;  // or null
+  std::size_t begin_ = 0;     // of the episode in it
   std::mt19937_64 random_;
   Excitations excitations_{};
   int step_ = 0;
@@ -170,6 +186,7 @@ std::vector<BenchResult> bench(const std::vector<std::string>& engines, const os
   for (const std::string& name : engines) {
     Team& team = teams.emplace_back();
     team.result.engine = name;
+    team.result.workload = options.running ? "running" : "random";
     team.result.threads = options.threads;
     team.result.accuracy = options.engine.accuracy;
     for (int i = 0; i < options.threads; ++i) {

@@ -1,15 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "train/simulation/engine/engine.h"
+#include "train/simulation/engine/recording.h"
 
 namespace stride::simulation {
 
-/// How fast an engine is: random excitations, uniform in [0, 1], held for ten steps of 0.01 s;
-/// episodes from equilibrium under the rules `clean`, restarted at a fall or after 1000 steps.
+/// How fast an engine is, under one of two workloads. Random: excitations uniform in [0, 1], held
+/// for ten steps of 0.01 s; episodes from equilibrium under the rules `clean`, restarted at a fall
+/// or after 1000 steps. Running: the excitations of a recorded run, from its state, put back onto
+/// it every second, so that what small differences make of it counts for little.
 struct BenchOptions {
   double seconds = 2;  // of wall time, for each engine
   long steps = 0;      // if positive: this many steps instead, on each thread
@@ -17,10 +21,11 @@ struct BenchOptions {
   int obstacles = 0;  // drawn anew for each episode
   std::uint64_t seed = 1;
   EngineOptions engine;
+  std::optional<Recording> running;  // unset: random
 };
 
 struct BenchResult {
-  std::string engine;
+  std::string engine, workload;  // workload: random or running
   int threads = 1;
   double accuracy = 0;
   long steps = 0, evaluations = 0, integration_steps = 0, rejected = 0;

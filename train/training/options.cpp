@@ -11,6 +11,7 @@
 #include <set>
 #include <variant>
 
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "extract/io/toml.h"
 #include "shaping/potential.h"
@@ -369,7 +370,7 @@ std::string to_toml(const TrainOptions& options, std::string_view heading) {
 }
 
 fs::path preset_file(std::string_view name) {
-  const fs::path folder = STRIDE_PRESETS;
+  const fs::path folder = data_file("train/presets");
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());

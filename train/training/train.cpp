@@ -5,11 +5,15 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
+#include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/parallel/ranks.h"
 #include "train/training/checkpoint.h"
 #include "train/training/curve.h"
+#include "train/training/exchange.h"
 #include "train/training/journal.h"
 #include "train/training/run_folder.h"
 #include "train/training/thread_pool.h"
@@ -138,19 +142,26 @@ class Evaluator {
 template <typename Scalar>
 TrainSummary train_with(const TrainOptions& options, const Potential* potential,
                         const fs::path& run, const EnvironmentFactory& make_environment,
-                        const std::atomic<bool>& stop, std::FILE* messages) {
+                        const std::atomic<bool>& stop, std::FILE* messages,
+                        parallel::Ranks& ranks) {
   Training<Scalar> training = start_training<Scalar>(options, potential, make_environment);
+  // The first rank tidies up the folder before the others read in it.
+  if (!ranks.first()) ranks.wait_for_all();
   if (fs::exists(checkpoint_file(run)))
     load_checkpoint(training, run);
-  else
+  else if (ranks.first())
     fs::remove_all(run / "replay");  // left by a kill before the first checkpoint
+  if (ranks.first()) ranks.wait_for_all();
   Progress& progress = training.progress;
-  Journal journal(run, new_curve(), progress, messages);
+  Journal journal(run, new_curve(), progress, ranks.first() ? messages : nullptr);
   ThreadPool pool(options.run.threads);
   Evaluator<Scalar> evaluator(options, potential, make_environment);
   TrainSummary summary;
 
   const auto evaluate = [&] {
+    ++progress.rows;
+    progress.last_row_decisions = progress.decisions;
+    if (!ranks.first()) return;
     const network::Policy<Scalar> policy = policy_of(training, options);
     const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
     summary.distance_m = row.evaluation_distance_m;
@@ -166,45 +177,54 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
       keep_as("best.safetensors");
     }
     progress.sums = {};
-    ++progress.rows;
-    progress.last_row_decisions = progress.decisions;
     journal.add_row(options, progress, row.values());
   };
 
   ddpg::Batch<Scalar> batch;
   auto last_checkpoint = Clock::now();
+  bool stopped = !ranks.gather(stop ? "stop" : "")[0].empty();
   for (;;) {
     if (progress.decisions >= progress.next_evaluation) {
       evaluate();
       progress.next_evaluation += options.run.evaluate_every;
     }
-    if (stop || progress.decisions >= options.run.decisions) break;
+    if (stopped || progress.decisions >= options.run.decisions) break;
 
     // A round. Everybody acts by the same copy of the actor; meanwhile the learner learns from what
     // was known when the round began: so it does not matter who is faster.
     const network::Policy<Scalar> policy = policy_of(training, options);
     const std::int64_t updates = updates_due(options, progress);
     pool.run(1 + options.run.environments, [&](int task) {
-      if (task == 0)
+      if (task == 0 && ranks.first())
         summary.divergence = learn(options, potential != nullptr, updates, training, batch);
-      else
+      else if (task > 0 && explores(ranks, task - 1))
         explore(options, policy, task - 1, training);
     });
+    const Orders orders =
+        exchange_round(options,
+                       {.stop = stop,
+                        .checkpoint = seconds_since(last_checkpoint) > options.run.checkpoint_s,
+                        .divergence = summary.divergence},
+                       ranks, training);
+    summary.divergence = orders.divergence;
     if (!summary.divergence.empty()) return summary;  // the last good checkpoint stays
     meet(options, updates, training);
+    stopped = orders.stop;
 
-    if (seconds_since(last_checkpoint) > options.run.checkpoint_s) {
-      journal.keep([&] { save_checkpoint(training, run); });
+    if (orders.checkpoint) {
+      collect_explorers(ranks, training);
+      if (ranks.first()) journal.keep([&] { save_checkpoint(training, run); });
       last_checkpoint = Clock::now();
     }
   }
   const auto keep_last = [&](const auto& write) {
     try {
-      write();
+      if (ranks.first()) write();
     } catch (const Error& error) {
       if (summary.unsaved.empty()) summary.unsaved = error.what();
     }
   };
+  collect_explorers(ranks, training);
   keep_last([&] { save_checkpoint(training, run); });
   summary.finished = progress.decisions >= options.run.decisions;
   // After the checkpoint, so that a run that is continued with more decisions has no row that an
@@ -236,10 +256,11 @@ void make_run_folder(const TrainOptions& options, const Demonstration& demonstra
 }
 
 void write_run_options(const TrainOptions& options, const fs::path& run) {
-  constexpr const char* kHeading =
-      "# stride config 1, written by stride " STRIDE_VERSION
-      "\n# Everything that this run uses, in SI units. It reads back with --config.\n";
-  write_file_atomically(run / "config.toml", to_toml(options, kHeading));
+  const std::string heading = fmt::format(
+      "# stride config 1, written by stride {}\n"
+      "# Everything that this run uses, in SI units. It reads back with --config.\n",
+      version());
+  write_file_atomically(run / "config.toml", to_toml(options, heading));
 }
 
 TrainOptions load_run_options(const fs::path& run) {
@@ -253,16 +274,20 @@ TrainOptions load_run_options(const fs::path& run) {
 }
 
 TrainSummary train(const fs::path& run, const EnvironmentFactory& make_environment,
-                   const std::atomic<bool>& stop, std::FILE* messages) {
+                   const std::atomic<bool>& stop, std::FILE* messages, parallel::Ranks& ranks) {
   const TrainOptions options = load_run_options(run);
   const std::optional<Potential> potential = load_run_demonstration(options, run).potential;
-  const FolderLock lock(run);
-  remove_unfinished_files(run);
-  remove_unfinished_files(run / "replay");
+  std::optional<FolderLock> lock;
+  if (ranks.first()) {
+    lock.emplace(run);
+    remove_unfinished_files(run);
+    remove_unfinished_files(run / "replay");
+  }
   require(options.run.learner == "ddpg", "{}: run.learner = {}: this is the loop of ddpg",
           run.string(), options.run.learner);
   const auto with = options.run.precision == "float" ? train_with<float> : train_with<double>;
-  return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages);
+  return with(options, potential ? &*potential : nullptr, run, make_environment, stop, messages,
+              ranks);
 }
 
 }  // namespace stride::training

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "extract/parallel/ranks.h"
 #include "train/training/demonstration.h"
 #include "train/training/training.h"
 
@@ -38,7 +39,9 @@ TrainOptions load_run_options(const std::filesystem::path& run);
 /// clock of the same rows), agent.safetensors and best.safetensors (policy.h). `messages` (or
 /// null) gets the progress. A disk that is full is reported, and writing is tried again later; if
 /// it still is at the end, the summary says so, and the run continues from the checkpoint before.
+/// All `ranks` make the call together; the summary is whole in the first.
 TrainSummary train(const std::filesystem::path& run, const EnvironmentFactory& make_environment,
-                   const std::atomic<bool>& stop, std::FILE* messages);
+                   const std::atomic<bool>& stop, std::FILE* messages,
+                   parallel::Ranks& ranks = parallel::Ranks::alone());
 
 }  // namespace stride::training

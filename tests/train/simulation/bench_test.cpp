@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include "extract/io/data_file.h"
+
 namespace stride {
 namespace {
 
@@ -35,6 +37,20 @@ TEST(Bench, TheSameSeedIsTheSameRun) {
   EXPECT_EQ(a.falls, b.falls);
   options.seed = 9;
   EXPECT_NE(simulation::bench({"planar"}, model, options)[0].evaluations, a.evaluations);
+}
+
+TEST(Bench, ARunNeverFallsAndCostsMoreThanFallingDoes) {
+  const osim::Model model = osim::load_osim(osim::default_model_file());
+  simulation::BenchOptions options;
+  options.steps = 700;
+  const simulation::BenchResult random = simulation::bench({"planar"}, model, options)[0];
+  options.running = simulation::load_recording(data_file("train/agents/stride/running.csv"));
+  const simulation::BenchResult running = simulation::bench({"planar"}, model, options)[0];
+  EXPECT_EQ(running.workload, "running");
+  EXPECT_EQ(running.falls + running.failures, 0);
+  EXPECT_EQ(running.time_limits, 7);  // put back onto the run every second
+  EXPECT_GT(running.evaluations_per_step(), 1.3 * random.evaluations_per_step());
+  EXPECT_LT(running.evaluations_per_step(), 60);
 }
 
 // The million steps of `stride bench --steps 1000000 --obstacles 20`, in short.

@@ -1,5 +1,6 @@
 #include "train/simulation/planar/linear.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace stride::planar {
@@ -28,17 +29,13 @@ void set_rows(PlanarState& y, int first, const Rows& r) {
   y.y[first + 2] = V4{r.base[2], 0, 0, 0};
 }
 
-/// result += factor · matrix · x
-void multiply(const V2 (&matrix)[6][6], double factor, const Rows& x, Rows& result) {
+/// result += factor · matrix · x, where element(i, j) is of the matrix
+template <typename Element>
+void multiply(const Element& element, double factor, const Rows& x, Rows& result) {
   V2 in[6], out[6] = {};
   for (int i = 0; i < 3; ++i) in[i] = x.leg[i], in[3 + i] = both(x.base[i]);
-  for (int i = 0; i < 6; ++i) {
-    out[i] += matrix[i][i] * in[i];
-    for (int j = i + 1; j < 6; ++j) {
-      out[i] += matrix[i][j] * in[j];
-      out[j] += matrix[i][j] * in[i];
-    }
-  }
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) out[i] += element(i, j) * in[j];
   for (int i = 0; i < 3; ++i) {
     result.leg[i] += factor * out[i];
     result.base[i] += factor * sum(out[3 + i]);
@@ -70,36 +67,36 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
     const V2 k = of_muscle(stiffness, m);
     const std::array<V2, 3>& arm = linear.arm[m];
     for (int i = 0; i < 3; ++i) {
-      for (int j = i; j < 3; ++j) spring_.at[i][j] += k * arm[2 - i] * arm[2 - j];
+      for (int j = 0; j < 3; ++j) spring_.at[i][j] += k * arm[2 - i] * arm[2 - j];
     }
   }
   for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) {
-      system_.at[i][j] =
-          linear.mass.matrix[i][j] + s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
+    for (int j = 0; j < 6; ++j) {
+      system_.at[i][j] = linear.mass.matrix[std::min(i, j)][std::max(i, j)] +
+                         s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
     }
   }
   for (int p = 0; p < 3; ++p) {
     inverse_[p] = 1 / system_.at[p][p];
     for (int i = p + 1; i < 6; ++i) {
-      const V2 factor = system_.at[p][i] * inverse_[p];
-      for (int j = i; j < 6; ++j) system_.at[i][j] -= factor * system_.at[p][j];
+      lower_[i][p] = system_.at[i][p] * inverse_[p];
+      for (int j = p + 1; j < 6; ++j) system_.at[i][j] -= lower_[i][p] * system_.at[p][j];
     }
   }
   for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) base_[i][j] = sum(system_.at[3 + i][3 + j]);
+    for (int j = 0; j < 3; ++j) base_[i][j] = sum(system_.at[3 + i][3 + j]);
   }
   const double m = linear.mass.base_mass_kg, x = linear.mass.base_x_m, y = linear.mass.base_y_m;
   base_[0][0] += linear.mass.base_inertia_kg_m2 + m * (x * x + y * y);
-  base_[0][1] -= m * y;
-  base_[0][2] += m * x;
+  base_[0][1] -= m * y, base_[1][0] -= m * y;
+  base_[0][2] += m * x, base_[2][0] += m * x;
   base_[1][1] += m;
   base_[2][2] += m;
   for (int p = 0; p < 3; ++p) {
     base_inverse_[p] = 1 / base_[p][p];
     for (int i = p + 1; i < 3; ++i) {
-      const double factor = base_[p][i] * base_inverse_[p];
-      for (int j = i; j < 3; ++j) base_[i][j] -= factor * base_[p][j];
+      base_[i][p] *= base_inverse_[p];
+      for (int j = p + 1; j < 3; ++j) base_[i][j] -= base_[i][p] * base_[p][j];
     }
   }
 }
@@ -108,13 +105,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   const Rows rq = rows_of(right, 0), ru = rows_of(right, State::kU);
   // Right side: s (M Ru + Rᵀ g delay Rl - s K Rq).
   Rows b{};
-  multiply(linear.mass.matrix, 1, ru, b);
+  const auto& mass = linear.mass.matrix;  // its upper triangle
+  multiply([&](int i, int j) { return mass[std::min(i, j)][std::max(i, j)]; }, 1, ru, b);
   const double m = linear.mass.base_mass_kg, x = linear.mass.base_x_m, y = linear.mass.base_y_m;
   b.base[0] += (linear.mass.base_inertia_kg_m2 + m * (x * x + y * y)) * ru.base[0] -
                m * y * ru.base[1] + m * x * ru.base[2];
   b.base[1] += m * (ru.base[1] - y * ru.base[0]);
   b.base[2] += m * (ru.base[2] + x * ru.base[0]);
-  multiply(spring_.at, -s_, rq, b);
+  multiply([&](int i, int j) { return spring_.at[i][j]; }, -s_, rq, b);
   PlanarFibers pulled;
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     pulled[g] = pull_[g] * right.y[State::kFiber + g];
@@ -127,13 +125,12 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   V2 r[6];
   for (int i = 0; i < 3; ++i) r[i] = s_ * b.leg[i], r[3 + i] = V2{};
   for (int p = 0; p < 3; ++p) {
-    const V2 scaled = r[p] * inverse_[p];
-    for (int i = p + 1; i < 6; ++i) r[i] -= system_.at[p][i] * scaled;
+    for (int i = p + 1; i < 6; ++i) r[i] -= lower_[i][p] * r[p];
   }
   double c[3];
   for (int i = 0; i < 3; ++i) c[i] = s_ * b.base[i] + sum(r[3 + i]);
   for (int p = 0; p < 2; ++p) {
-    for (int i = p + 1; i < 3; ++i) c[i] -= base_[p][i] * base_inverse_[p] * c[p];
+    for (int i = p + 1; i < 3; ++i) c[i] -= base_[i][p] * c[p];
   }
   Rows u;
   for (int p = 2; p >= 0; --p) {

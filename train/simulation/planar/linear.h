@@ -16,7 +16,7 @@ namespace stride::planar {
 struct PlanarLinear {
   using V2 = simd::V2;
   using Fibers = PlanarFibers;
-  /// A symmetric matrix over ankle, knee, hip, tilt, x, y of each leg; the upper triangle.
+  /// A matrix over ankle, knee, hip, tilt, x, y of each leg. Friction makes it asymmetric.
   struct Matrix {
     V2 at[6][6] = {};
   };
@@ -40,7 +40,7 @@ class PlanarSolver {
  private:
   double s_ = 0;
   PlanarLinear::Matrix system_, spring_;
-  simd::V2 inverse_[3];
+  simd::V2 inverse_[3], lower_[6][3];  // lower_[i][p]: of row p, what row i loses
   double base_[3][3], base_inverse_[3];
   PlanarFibers delay_;  // s / (1 - s J_l)
   PlanarFibers pull_;   // g · delay

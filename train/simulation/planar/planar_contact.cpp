@@ -13,16 +13,45 @@ using simd::V4;
 
 namespace {
 
-/// Adds a spring or damper between the foot's point (relative to the pelvis) and the ground, whose
-/// tensor is [xx xy; xy yy].
-void add_at_foot(PlanarLinear::Matrix& matrix, const Pair joint[3], Pair point, V2 xx, V2 xy,
-                 V2 yy) {
-  const Pair column[6] = {perp(point - joint[0]), perp(point - joint[1]),
-                          perp(point - joint[2]), perp(point),
-                          {both(1), V2{}},        {V2{}, both(1)}};
-  for (int i = 0; i < 6; ++i) {
-    const Pair w{xx * column[i].x + xy * column[i].y, xy * column[i].x + yy * column[i].y};
-    for (int j = i; j < 6; ++j) matrix.at[i][j] += dot(w, column[j]);
+/// How the foot's point (relative to the pelvis) moves with ankle, knee, hip, tilt, x, y.
+struct Columns {
+  Columns(const Pair joint[3], Pair point)
+      : at{perp(point - joint[0]), perp(point - joint[1]), perp(point - joint[2]), perp(point),
+           {both(1), V2{}},        {V2{}, both(1)}} {}
+  Pair at[6];
+};
+
+/// Adds a spring or damper between that point and the ground, whose tensor is [xx xy; yx yy].
+void add_at_foot(PlanarLinear::Matrix& matrix, const Columns& column, V2 xx, V2 xy, V2 yx, V2 yy) {
+  for (int j = 0; j < 6; ++j) {
+    const Pair c = column.at[j];
+    const Pair w{xx * c.x + xy * c.y, yx * c.x + yy * c.y};
+    for (int i = 0; i < 6; ++i) matrix.at[i][j] += dot(column.at[i], w);
+  }
+}
+
+/// A foot that turns or sinks touches with another point, which moves at another velocity: so
+/// friction (`brake` N s/m) and damping spring back, too. `arm` goes from the foot's origin to the
+/// centre of the sphere, below which it touches.
+void add_rolling(PlanarLinear::Matrix& matrix, const Columns& column, const Pair joint[3],
+                 Pair point, Pair arm, const PlanarState& state, const PlanarKinematics& k,
+                 V2 brake, V2 damper, V2 mu) {
+  const Pair pelvis{both(state.u(7)), both(state.u(8))};
+  const Pair hip = pelvis + k.omega[0] * perp(k.origin[1]);
+  const Pair knee =
+      hip + k.omega[1] * perp(k.origin[2] - k.origin[1]) + k.knee_speed * k.hinge_speed;
+  const Pair foot = k.velocity_of_foot;
+  const Pair carried[4] = {foot, knee, hip, pelvis}, at[4] = {joint[0], joint[1], joint[2], Pair{}};
+  Pair slope[6]{};  // of the point's velocity by each coordinate
+  for (int j = 0; j < 4; ++j) {
+    const V2 sinks = 0.5 * (point.x - at[j].x);  // the point stays half-way in depth
+    slope[j].x = carried[j].y - foot.y - k.omega[3] * (arm.x - sinks);
+    slope[j].y = foot.x - carried[j].x - k.omega[3] * arm.y;
+  }
+  slope[5].x = 0.5 * k.omega[3];
+  for (int j = 0; j < 6; ++j) {
+    const V2 fy = damper * slope[j].y, fx = brake * slope[j].x + mu * fy;
+    for (int i = 0; i < 6; ++i) matrix.at[i][j] += column.at[i].x * fx + column.at[i].y * fy;
   }
 }
 
@@ -80,8 +109,12 @@ FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const Pl
   for (int i = 0; i < 2 * m.spheres_of_foot; i += 2) {
     const auto half = [&](V4 f) { return V2{f[i], f[i + 1]}; };
     const Pair point{half(from_x), half(from_y)};
-    add_at_foot(linear->stiffness, joint, point, V2{}, V2{}, half(spring));
-    add_at_foot(linear->damping, joint, point, half(brake), V2{}, half(damper));
+    const Columns column(joint, point);
+    // Friction is mu times the normal force: it changes with the depth as that does.
+    add_at_foot(linear->stiffness, column, V2{}, half(mu * spring), V2{}, half(spring));
+    add_at_foot(linear->damping, column, half(brake), half(mu * damper), V2{}, half(damper));
+    add_rolling(linear->stiffness, column, joint, point, {half(arm_x), half(arm_y)}, state, k,
+                half(brake), half(damper), half(mu));
   }
   return feet;
 }
@@ -117,8 +150,9 @@ void touch_obstacles(const PlanarModel& m, const std::vector<PlanarObstacle>& ob
       V2 spring{};
       spring[leg] = 1.5 * force / depth;
       const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
-      add_at_foot(linear->stiffness, joint, {both(at_x), both(at_y)}, nx * nx * spring,
-                  nx * ny * spring, ny * ny * spring);
+      const V2 across = nx * ny * spring;
+      add_at_foot(linear->stiffness, {joint, {both(at_x), both(at_y)}}, nx * nx * spring, across,
+                  across, ny * ny * spring);
     }
   }
 }
