@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shaping/shaping_reward.h"
+
 namespace stride::ppo {
 
 Slot::Slot(std::unique_ptr<environment::Environment> environment, environment::Observer observer,

@@ -1,14 +1,20 @@
 #include "train/ppo/train_run.h"
 
+#include "extract/io/error.h"
 #include "train/ppo/train.h"
 
 namespace stride {
 
 training::TrainSummary train_run(const std::filesystem::path& run,
                                  const training::EnvironmentFactory& make_environment,
-                                 const std::atomic<bool>& stop, std::FILE* messages) {
+                                 const std::atomic<bool>& stop, std::FILE* messages,
+                                 parallel::Ranks& ranks) {
   const bool ppo = training::load_run_options(run).run.learner == "ppo";
-  return (ppo ? ppo::train : training::train)(run, make_environment, stop, messages);
+  if (!ppo) return training::train(run, make_environment, stop, messages, ranks);
+  require(ranks.size() == 1,
+          "{}: run.learner = ppo: runs in one process, not in {}; start it without mpirun",
+          run.string(), ranks.size());
+  return ppo::train(run, make_environment, stop, messages);
 }
 
 }  // namespace stride

@@ -50,7 +50,7 @@ class BoundRunners {
                .times_s = real("time_s"),
                .phases = real("phase"),
                .phis = real("phi"),
-               .poses = real("pose", std::tuple_size_v<ddpg::PackedPose>),
+               .poses = real("pose", kPoseNumbers),
                .terminated = flag("terminated"),
                .truncated = flag("truncated"),
                .failed = flag("failed")};

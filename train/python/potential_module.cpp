@@ -5,7 +5,7 @@
 
 #include "extract/io/error.h"
 #include "shaping/potential.h"
-#include "train/ddpg/replay_buffer.h"
+#include "shaping/shaping_reward.h"
 #include "train/python/module.h"
 
 namespace stride::python {
@@ -15,7 +15,7 @@ namespace {
 using Reals = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
-constexpr py::ssize_t kPose = std::tuple_size_v<ddpg::PackedPose>;
+constexpr py::ssize_t kPose = kPoseNumbers;
 
 std::string shape_of(const py::array& array) {
   return py::str(array.attr("shape")).cast<std::string>();
@@ -29,9 +29,9 @@ Reals phi(const Potential& potential, const Reals& poses, const Reals& phases) {
           shape_of(poses), shape_of(phases));
   Reals values(std::vector<py::ssize_t>(poses.shape(), poses.shape() + poses.ndim() - 1));
   for (py::ssize_t i = 0; i < phases.size(); ++i) {
-    ddpg::PackedPose packed;
-    std::copy_n(poses.data() + i * kPose, kPose, packed.begin());
-    values.mutable_data()[i] = potential(ddpg::unpack(packed), phases.data()[i]);
+    Pose pose;
+    std::copy_n(poses.data() + i * kPose, kPose, pose.m.begin());
+    values.mutable_data()[i] = potential(pose, phases.data()[i]);
   }
   return values;
 }
@@ -41,8 +41,8 @@ Reals targets(const Potential& potential, const Reals& phases) {
   shape.push_back(kPose);
   Reals poses(shape);
   for (py::ssize_t i = 0; i < phases.size(); ++i) {
-    const ddpg::PackedPose packed = ddpg::pack(potential.target(phases.data()[i]));
-    std::copy(packed.begin(), packed.end(), poses.mutable_data() + i * kPose);
+    const Pose pose = potential.target(phases.data()[i]);
+    std::copy(pose.m.begin(), pose.m.end(), poses.mutable_data() + i * kPose);
   }
   return poses;
 }

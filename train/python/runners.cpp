@@ -122,8 +122,7 @@ void Runners::write(Runner& runner, std::size_t i, const Eigen::VectorXd& observ
   std::copy_n(values->begin(), size,
               arrays.observations.begin() + static_cast<std::ptrdiff_t>(i * size));
   const Pose pose = environment.pose();
-  const ddpg::PackedPose packed = ddpg::pack(pose);
-  std::ranges::copy(packed, arrays.poses.begin() + static_cast<std::ptrdiff_t>(i * packed.size()));
+  std::ranges::copy(pose.m, arrays.poses.begin() + static_cast<std::ptrdiff_t>(i * pose.m.size()));
   arrays.forward[i] = runner.reward.forward;
   arrays.ligament[i] = runner.reward.ligament;
   arrays.rewards[i] = runner.reward.sum();

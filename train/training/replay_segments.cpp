@@ -67,11 +67,11 @@ template <typename Scalar>
 void put_records(network::Tensors& tensors, const std::vector<Record<Scalar>>& records) {
   const auto count = static_cast<Eigen::Index>(records.size());
   std::string outcomes;
-  Eigen::MatrixXd poses(count, std::tuple_size_v<ddpg::PackedPose>);
+  Eigen::MatrixXd poses(count, kPoseNumbers);
   for (std::size_t i = 0; i < records.size(); ++i) {
     outcomes += static_cast<char>(records[i].outcome);
-    for (std::size_t k = 0; k < records[i].pose.size(); ++k)
-      poses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = records[i].pose[k];
+    for (std::size_t k = 0; k < records[i].pose.m.size(); ++k)
+      poses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = records[i].pose.m[k];
   }
   tensors.put_bytes("outcome", outcomes);
   tensors.put("pose", poses);
@@ -89,12 +89,12 @@ void get_records(const network::Tensors& tensors, std::vector<Record<Scalar>>& r
   const std::string& outcomes = tensors.bytes("outcome");
   require(outcomes.size() == records.size(), "{}: {} outcomes, {} are needed: of another run",
           tensors.file, outcomes.size(), records.size());
-  Eigen::MatrixXd poses(count, std::tuple_size_v<ddpg::PackedPose>);
+  Eigen::MatrixXd poses(count, kPoseNumbers);
   tensors.get("pose", poses);
   for (std::size_t i = 0; i < records.size(); ++i) {
     records[i].outcome = static_cast<ddpg::Outcome>(outcomes[i]);
-    for (std::size_t k = 0; k < records[i].pose.size(); ++k)
-      records[i].pose[k] = poses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < records[i].pose.m.size(); ++k)
+      records[i].pose.m[k] = poses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
   }
   visit_numbers<Scalar>([&](const char* name, double Record<Scalar>::*member) {
     Eigen::VectorXd column(count);
@@ -108,8 +108,7 @@ void get_records(const network::Tensors& tensors, std::vector<Record<Scalar>>& r
 /// of the mirrored pose.
 template <typename Scalar>
 void get_records_version_1(const network::Tensors& tensors, std::vector<Record<Scalar>>& records) {
-  constexpr std::size_t kNumbers = 4 + std::tuple_size_v<ddpg::PackedPose>,
-                        kBytes = 8 + 8 * kNumbers;
+  constexpr std::size_t kNumbers = 4 + kPoseNumbers, kBytes = 8 + 8 * kNumbers;
   const std::string& bytes = tensors.bytes("records");
   require(bytes.size() == records.size() * kBytes,
           "{}: records of {} bytes, {} are needed: of another run", tensors.file, bytes.size(),
@@ -122,7 +121,7 @@ void get_records_version_1(const network::Tensors& tensors, std::vector<Record<S
     record.outcome = static_cast<ddpg::Outcome>(*at);
     record.reward = numbers[0];
     record.phase = numbers[1];
-    std::copy_n(numbers + 2, record.pose.size(), record.pose.begin());
+    std::copy_n(numbers + 2, record.pose.m.size(), record.pose.m.begin());
     record.phi = numbers[kNumbers - 2];
     record.phi_mirrored = numbers[kNumbers - 1];
   }

@@ -48,11 +48,7 @@ Potential some_potential() {
   for (int k = 0; k < 8; ++k) {
     Keyframe key;
     key.phase = k / 8.0;
-    key.pose = {.pelvis_height_m = 1,
-                .knee_r = {0.02 * k, -0.4},
-                .foot_r = {0.1, -0.8},
-                .knee_l = {-0.02 * k, -0.4},
-                .foot_l = {0.1, -0.8 + 0.01 * k}};
+    key.pose = {{1, 0.02 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
     potential.keyframes.push_back(key);
   }
   return potential;

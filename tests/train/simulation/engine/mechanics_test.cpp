@@ -148,7 +148,8 @@ TEST_P(Mechanics, EnvironmentObservesTheMirrorByNames) {
     observations.apply(a.observation, expected);
     EXPECT_LT((b.observation - expected).cwiseAbs().maxCoeff(), 1e-6) << "step " << i;
     EXPECT_NEAR(a.reward, b.reward, 1e-9);
-    EXPECT_LT((one.pose().mirrored().foot_l - other.pose()[PosePart::foot_l]).norm(), 1e-9);
+    EXPECT_LT((one.pose().mirrored()[PosePart::foot_l] - other.pose()[PosePart::foot_l]).norm(),
+              1e-9);
   }
 }
 
