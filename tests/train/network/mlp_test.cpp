@@ -168,7 +168,7 @@ TEST(Mlp, AnUnknownActivationIsNamed) {
 
 /// Eigen splits products by them, and with the split the order of sums changes.
 TEST(Mlp, DoesNotDependOnTheCachesOfTheProcessor) {
-  const network::Mlp<float> linked(network::MlpShape{.inputs = 1, .outputs = 1});
+  const network::Mlp<float> linked(network::MlpShape{.inputs = 1, .outputs = 1, .hidden = {}});
   EXPECT_EQ(Eigen::l1CacheSize(), 32 << 10);
   EXPECT_EQ(Eigen::l2CacheSize(), 512 << 10);
   EXPECT_EQ(Eigen::l3CacheSize(), 16 << 20);
