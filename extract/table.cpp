@@ -141,11 +141,23 @@ Table load_table(const std::filesystem::path& file, std::string_view format, int
   return table;
 }
 
+namespace {
+
+/// On one line, or it would be read as something else.
+std::string on_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20; }, ' ');
+  return text;
+}
+
+}  // namespace
+
 void save(const Table& table, const std::filesystem::path& file) {
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   if (!table.format.empty()) fmt::format_to(to, "# stride {} {}\n", table.format, table.version);
-  for (const auto& [key, value] : table.metadata) fmt::format_to(to, "# {}: {}\n", key, value);
+  for (const auto& [key, value] : table.metadata)
+    fmt::format_to(to, "# {}: {}\n", key, on_one_line(value));
   fmt::format_to(to, "{}\n", fmt::join(table.columns, ","));
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "extract/commands.h"
 #include "extract/error.h"
 #include "extract/export.h"
+#include "extract/io/outputs.h"
 #include "extract/marked.h"
 #include "extract/overlay.h"
 #include "extract/pose.h"
@@ -85,7 +86,29 @@ void report(const Tracked& tracked) {
     fmt::print(stderr, "warning: {}\n", shortfall);
 }
 
+/// What `--export` writes.
+FileKind exported_kind(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension == ".csv") return FileKind::points_csv;
+  if (extension == ".json") return FileKind::points_json;
+  return extension == ".trc" ? FileKind::trc : FileKind::missing;
+}
+
+fs::path trajectory_file(const Request& request) {
+  if (!request.out.empty() || !request.export_to.empty()) return request.out;
+  return fs::path(request.video).replace_extension(".trajectory.csv");
+}
+
+void check_files(const Request& request) {
+  check_outputs({request.video, request.keypoints, keypoints_file_of(request.video),
+                 request.import_from, request.prior, request.score, request.pose.model},
+                {{"-o", trajectory_file(request), FileKind::trajectory},
+                 {"--overlay", request.overlay, FileKind::video},
+                 {"--export", request.export_to, exported_kind(request.export_to)}});
+}
+
 void run(Request request) {
+  check_files(request);
   if (!request.score.empty()) {
     fmt::print("{}", table_of(score_tracking(request.video, request.score)));
     return;
@@ -107,11 +130,9 @@ void run(Request request) {
   if (!request.export_to.empty()) {
     export_points(tracked.trajectory, request.export_to);
     fmt::print("{}\n", request.export_to.string());
-    if (request.out.empty()) return;
   }
-  const fs::path out = request.out.empty()
-                           ? fs::path(request.video).replace_extension(".trajectory.csv")
-                           : request.out;
+  const fs::path out = trajectory_file(request);
+  if (out.empty()) return;
   save(tracked.trajectory, out);
   fmt::print("{}\n", out.string());
 }

@@ -9,6 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/error.h"
+#include "extract/video/container.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -42,6 +43,21 @@ bool is_mp4_without_index(const fs::path& file) {
   return !first;
 }
 
+/// Upright, in memory of its own.
+cv::Mat turned(const cv::Mat& stored, const Turn& turn) {
+  cv::Mat image;
+  if (turn.transpose)
+    cv::transpose(stored, image);
+  else
+    image = stored;
+  if (turn.mirror_x || turn.mirror_y) {
+    cv::Mat flipped;
+    cv::flip(image, flipped, turn.mirror_x && turn.mirror_y ? -1 : turn.mirror_x ? 1 : 0);
+    return flipped;
+  }
+  return image;
+}
+
 /// FFmpeg's own lines on stderr say less than our errors do.
 void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); }
 
@@ -50,8 +66,9 @@ void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0
 struct Video::Decoder {
   cv::VideoCapture capture;
   VideoInfo info;
+  Turn turn;
   double slow_motion = 1;
-  cv::Mat stored;  // of pixels that are not square
+  cv::Mat stored;  // lies, or has pixels that are not square
   cv::Mat first;   // decoded on opening: only a decoded frame proves that this is a video
   int frames_read = 0;
   double start_s = 0, previous_s = 0, step_s = 0;  // in presentation time
@@ -59,10 +76,14 @@ struct Video::Decoder {
   /// Into the memory of `image` where nobody else keeps it.
   bool decode(cv::Mat& image) {
     if (image.u != nullptr && image.u->refcount > 1) image.release();
-    if (info.width_px == 0 || info.width_px == info.stored_width_px)
-      return capture.read(image) && !image.empty();
+    const bool is_square = info.width_px == 0 || info.width_px == info.stored_width_px;
+    if (turn.is_none() && is_square) return capture.read(image) && !image.empty();
     if (!capture.read(stored) || stored.empty()) return false;
-    cv::resize(stored, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
+    image = turned(stored, turn);
+    if (is_square) return true;
+    const cv::Mat upright = image;
+    image.release();
+    cv::resize(upright, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
     return true;
   }
 
@@ -96,8 +117,14 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   Decoder& d = *decoder_;
   d.slow_motion = slow_motion;
   d.info.file = file;
+  const Container container = read_container(file);
+  d.turn = container.turn;
+  d.info.turn = container.turn;
+  d.info.capture_rate_hz = container.capture_rate_hz;
   cv::Mat first;
-  if (!d.capture.open(file.string(), cv::CAP_FFMPEG) || !d.decode(first)) {
+  // OpenCV 4.6 turns by 90 degrees the wrong way: https://github.com/opencv/opencv/issues/22088
+  if (!d.capture.open(ffmpeg_name(file), cv::CAP_FFMPEG) ||
+      !d.capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0) || !d.decode(first)) {
     require(!is_mp4_without_index(file),
             "{}: truncated: 0 frames readable, because the index at the end of the file is "
             "missing; copy or record it again",
@@ -109,8 +136,7 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   const double numerator = d.capture.get(cv::CAP_PROP_SAR_NUM),
                denominator = d.capture.get(cv::CAP_PROP_SAR_DEN);
   double aspect = numerator > 0 && denominator > 0 ? numerator / denominator : 1;
-  const int rotation_deg = static_cast<int>(d.capture.get(cv::CAP_PROP_ORIENTATION_META));
-  if (rotation_deg % 180 != 0) aspect = 1 / aspect;
+  if (d.turn.transpose) aspect = 1 / aspect;
   d.info.stored_width_px = first.cols;
   d.info.width_px = static_cast<int>(std::lround(first.cols * aspect));
   d.info.height_px = first.rows;

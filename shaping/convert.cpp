@@ -16,6 +16,7 @@
 #include "extract/annotation/journal.h"
 #include "extract/error.h"
 #include "extract/file.h"
+#include "extract/io/outputs.h"
 #include "extract/marked.h"
 
 namespace stride {
@@ -47,6 +48,7 @@ class Clip {
   }
 
   Converted convert() {
+    check_files();
     // Before the inputs are compared with those of the last time.
     if (is_video(input_)) fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
@@ -70,6 +72,18 @@ class Clip {
 
  private:
   fs::path out(const char* ending) const { return options_.out / (result_.name + ending); }
+
+  void check_files() const {
+    const auto own = [&](const char* ending, bool is_input) {
+      return is_input ? fs::path() : out(ending);
+    };
+    check_outputs({input_, keypoints_file_of(input_), options_.model},
+                  {{"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
+                   {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
+                   {"-o", out(".report.txt"), FileKind::report},
+                   {"-o", out(".report.svg"), FileKind::svg},
+                   {"-o", out(".potential.json"), FileKind::potential}});
+  }
 
   CalibratedTrajectory calibrated() {
     if (ends_with(input_, kCalibrated)) {

@@ -8,6 +8,7 @@
 
 #include "extract/error.h"
 #include "extract/file.h"
+#include "extract/io/outputs.h"
 #include "train/evaluation_film.h"
 #include "train/human_gait.h"
 #include "train/runner_factory.h"
@@ -125,6 +126,8 @@ std::string Evaluation::brief_report() const {
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
+  check_outputs({run / "reference.calibrated.csv"},
+                {{"--trajectory", options.trajectory, FileKind::calibrated}});
   const fs::path agent = agent_file(run, options.agent);
   TrainOptions train_options = load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "extract/error.h"
+#include "extract/io/outputs.h"
 #include "train/commands.h"
 #include "train/simulate.h"
 
@@ -18,6 +19,8 @@ struct Arguments {
 };
 
 void run(const Arguments& arguments) {
+  check_outputs({arguments.model, arguments.excitations, arguments.obstacles},
+                {{"--out", arguments.out, FileKind::table}});
   SimulateOptions options;
   options.engine = arguments.engine;
   options.rules = rules_named(arguments.rules);
