@@ -30,7 +30,7 @@ struct Solution {
 };
 
 /// Where a guessed period starts.
-StrideFit start(const FitProblem& problem, const PeriodGuess& guess);
+StrideFit start(const FitProblem& problem, const StridePeriod& guess);
 
 /// One solve with Ceres from the present state at its present noise.
 /// `tolerance`: the relative decrease of the cost at which it ends.

@@ -17,6 +17,7 @@
 #include "extract/file.h"
 #include "extract/marked.h"
 #include "extract/pose.h"
+#include "extract/tracking/points_on_video.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -74,7 +75,7 @@ void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal
       by_model ? pose_points(request.video, request.pose, options) : import_points(from, options);
   frames.wait();
   const Marked marked =
-      points_on(request.video, detections, video_times(request.video, 1), 1, request.repair_legs);
+      points_on(request.video, detections, {1, request.repair_legs, request.import});
   Change change{fmt::format("points of {}", from.filename().string()), {}, {}};
   for (const TrajectoryFrame& imported : marked.marks.frames) {
     const int number = imported.frame;
@@ -188,6 +189,7 @@ void run(Request request) {
     return;
   }
   require(!request.video.empty(), "VIDEO is missing: give the video to annotate");
+  ::setenv("QT_LOGGING_RULES", "default.warning=false", /*overwrite=*/0);  // of XDG_RUNTIME_DIR
   if (request.script.empty()) require_display();
   request.session.canvas_px = {request.window[0], request.window[1]};
   require(request.window[0] >= 800 && request.window[1] >= 500,

@@ -10,36 +10,65 @@
 #include "extract/import/formats.h"
 #include "extract/import/people.h"
 #include "extract/import/text.h"
+#include "extract/io/file_kind.h"
+#include "extract/io/option_range.h"
 
 namespace stride {
 namespace fs = std::filesystem;
 namespace {
 
-/// Which format a file is, from its first bytes. Empty: none that we know.
-std::string sniff(std::string_view content) {
-  const auto start = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+/// Which format a text is. Empty: none that we know.
+std::string sniff(std::string_view content, const std::string& file) {
+  const auto start = content.find_first_not_of(" \t\n");
   if (start == std::string_view::npos) return "";
-  const std::string_view head = content.substr(start, 4096);
-  const std::string_view line = head.substr(0, head.find('\n'));
   const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
-  if (head.front() == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
-  if (head.front() == '{') {
+  if (content[start] == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
+  if (content[start] == '{') {
     if (has("\"people\"")) return "openpose";
     if (has("\"instance_info\"")) return "mmpose";
     if (has("\"annotations\"")) return "coco";
     return has("\"stride points\"") ? "json" : "";
   }
-  if (head.front() == '<') return has("<annotations") ? "cvat" : "";
-  if (line.starts_with("scorer") || line.starts_with("bodyparts")) return "deeplabcut";
-  if (line.starts_with("track,frame_idx")) return "sleap";
-  if (line.starts_with("PathFileType")) return "trc";
-  if (line.starts_with("Time") || line.starts_with("\"Time\"")) return "kinovea";
-  if (line.find("_cam1_X") != line.npos) return "dltdv";
-  if (line.starts_with("# stride trajectory") || line.starts_with("frame,")) return "csv";
-  return "";
+  if (content[start] == '<') return has("<annotations") ? "cvat" : "";
+  const TextTable table = read_text_table(content.substr(0, content.find('\n', 16384)), file);
+  if (table.lines.empty()) return "";
+  const std::vector<std::string>& cells = table.lines.front().cells;
+  const std::string& first = cells.front();
+  const auto names = [&](std::string_view name) {
+    return std::ranges::any_of(cells, [&](const auto& c) { return c.find(name) != c.npos; });
+  };
+  if (first == "scorer" || first == "bodyparts") return "deeplabcut";
+  if (first == "track" && names("frame_idx")) return "sleap";
+  if (first.starts_with("PathFileType")) return "trc";
+  if (first == "Time") return "kinovea";
+  if (names("_cam1_X")) return "dltdv";
+  return first == "frame" ? "csv" : "";
 }
 
-DetectedPeople read_openpose_folder(const fs::path& folder) {
+/// What to do with a file of another kind. Throws Error if it holds no text at all.
+void require_text(FileKind kind, const std::string& file) {
+  require(kind != FileKind::empty, "{}: is empty", file);
+  const auto cure = [&]() -> std::string_view {
+    switch (kind) {
+      case FileKind::hdf5:
+        return "DeepLabCut: analyze_videos(…, save_as_csv=True); SLEAP: export the analysis CSV";
+      case FileKind::kinovea_xml:
+        return "Kinovea: export the trajectories as CSV";
+      case FileKind::zip:
+        return "save the sheet as CSV";
+      case FileKind::c3d:
+        return "export TRC in pixels";
+      case FileKind::video:
+        return "give it as VIDEO";
+      default:
+        return "export the points as CSV or JSON";
+    }
+  };
+  require(!is_binary(kind) && kind != FileKind::kinovea_xml && kind != FileKind::svg,
+          "{}: is {}; expected points as text: {}", file, name(kind), cure());
+}
+
+ImportedFile read_openpose_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
@@ -47,20 +76,20 @@ DetectedPeople read_openpose_folder(const fs::path& folder) {
           "{}: a folder without .json files: expected OpenPose's NAME_000000000012_keypoints.json",
           folder.string());
   std::ranges::sort(files);
-  DetectedPeople people;
+  ImportedFile content;
   for (const fs::path& file : files) {
     const auto frame = last_number(file.stem().string());
     require(frame.has_value(),
             "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints"
             ".json",
             file.string());
-    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame);
-    people.insert(people.end(), more.begin(), more.end());
+    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame).people;
+    content.people.insert(content.people.end(), more.begin(), more.end());
   }
-  return people;
+  return content;
 }
 
-using Reader = DetectedPeople (*)(std::string_view, const std::string&, const ImportOptions&);
+using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
 
 /// Every format by its name.
 const std::vector<std::pair<std::string, Reader>>& readers() {
@@ -102,22 +131,27 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
   std::string format = options.format;
   require(format.empty() || std::ranges::find(import_formats(), format) != import_formats().end(),
           "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
-  DetectedPeople people;
+  ImportedFile content;
   if (fs::is_directory(path)) {
     require(format.empty() || format == "openpose",
             "{}: is a folder; a folder is read as OpenPose's, not as {}", path.string(), format);
     format = "openpose";
-    people = read_openpose_folder(path);
+    content = read_openpose_folder(path);
   } else {
-    const std::string content = read_file(path);
-    if (format.empty()) format = sniff(content);
+    require(fs::is_regular_file(path), "{}: is not a file", path.string());
+    require_text(kind_of(path), path.string());
+    const std::string text = decoded_text(read_file(path), path.string());
+    if (format.empty()) format = sniff(text, path.string());
     require(!format.empty(),
             "{}:1: not a format of points that is known; expected one of {} (see --format)",
             path.string(), fmt::join(import_formats(), ", "));
     const auto reader = std::ranges::find(readers(), format, [](const auto& r) { return r.first; });
-    people = reader->second(content, path.string(), options);
+    content = reader->second(text, path.string(), options);
   }
-  Detections detections = take_person(std::move(people), options, path.string());
+  require(!options.rate_was_given || format == "kinovea",
+          "--import-rate {}: files of {} say frames, not times: it has no effect, leave it out",
+          options.rate_hz, format);
+  Detections detections = take_person(std::move(content), options, path.string());
   detections.format = format;
   return detections;
 }
@@ -126,10 +160,15 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
   command
       .add_option("--format", options.format, "Format of the imported file, if not told from it")
       ->check(CLI::IsMember(import_formats()));
-  command.add_option("--person", options.person,
-                     "Which person of the imported file: 1 the largest sustained, 2 the next, …");
-  command.add_option("--min-confidence", options.min_confidence,
-                     "Imported points below this count as absent");
+  command
+      .add_option("--person", options.person,
+                  "Which person of the imported file: 1 the largest sustained, 2 the next, …")
+      ->check(in_range(1, 1000));
+  command
+      .add_option("--min-confidence", options.min_confidence,
+                  "Imported points below this count as absent")
+      ->check(in_range(0, 1))
+      ->capture_default_str();
   command
       .add_option_function<std::vector<std::string>>(
           "--labels",
@@ -143,10 +182,30 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
           },
           "Names in the imported file, PART=LABEL,…")
       ->delimiter(',');
-  command.add_option("--y-up", options.y_up_height_px,
-                     "The imported file's y grows upwards; height of the video in px");
-  command.add_option("--import-rate", options.rate_hz,
-                     "Frame rate of the video in Hz, for files that say times and no frames");
+  command
+      .add_option("--y-up", options.y_up_height_px,
+                  "The imported file's y grows upwards; height of the video in px")
+      ->check(in_range(1, 100000));
+  command
+      .add_option_function<double>(
+          "--import-rate",
+          [&options](double rate_hz) {
+            options.rate_hz = rate_hz;
+            options.rate_was_given = true;
+          },
+          "Frame rate of the video in Hz, for files that say times and no frames")
+      ->check(in_range(0.1, 100000));
+  command
+      .add_option("--points-size", options.size_px,
+                  "Size of the picture that the points were made on, if not the video's: WIDTH "
+                  "HEIGHT")
+      ->expected(2)
+      ->check(in_range(1, 100000));
+  command
+      .add_option("--first-frame", options.first_frame,
+                  "Number that the imported file gives the video's first frame (default: told from "
+                  "the file: 0 or 1)")
+      ->check(in_range(-1e6, 1e9));
 }
 
 }  // namespace stride

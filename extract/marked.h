@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "extract/import.h"
 #include "extract/track.h"
 
 namespace stride {
@@ -18,12 +17,6 @@ struct Marked {
 /// such video, where it was not clicked, or where it is not the one that was clicked.
 Marked clicks_on(const std::filesystem::path& video, const std::filesystem::path& keypoints_file,
                  double slow_motion);
-
-/// The points of another program or of a pose model as marks. Where they are a detector's (on most
-/// frames), right and left are repaired if `with_legs_repaired`, and what was swapped is told on
-/// stderr.
-Marked points_on(const std::filesystem::path& video, const Detections& detections,
-                 const VideoTimes& times, double slow_motion, bool with_legs_repaired);
 
 /// Follows the marks through the frames of their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const Marked& marked,

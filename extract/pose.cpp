@@ -65,7 +65,7 @@ Detections pose_points(const std::filesystem::path& video, const PoseOptions& po
   Video frames(video);
   const cv::Rect2d whole(-0.5, -0.5, frames.info().width_px, frames.info().height_px);
   std::optional<cv::Rect2d> box = pose.box_px;
-  DetectedPeople people;
+  ImportedFile content;
   for (VideoFrame frame; frames.read(frame);) {
     const std::vector<PosePerson> found =
         network.find(frame.image, box ? grown(*box, sidecar.padding) : whole);
@@ -73,12 +73,13 @@ Detections pose_points(const std::filesystem::path& video, const PoseOptions& po
       const std::vector<Point> points = points_of(found[i], sidecar.min_confidence);
       if (i == 0 && box) follow(points, *box);
       DetectedPerson person{frame.index, "", map.parts(points)};
-      if (std::ranges::any_of(person.points, &Point::present)) people.push_back(person);
+      if (std::ranges::any_of(person.points, &Point::present)) content.people.push_back(person);
     }
   }
-  require(!people.empty(), "{}: finds nobody in {}; is it the picture's colour order or scale? {}",
+  require(!content.people.empty(),
+          "{}: finds nobody in {}; is it the picture's colour order or scale? {}",
           pose.model.string(), video.string(), sidecar_file.string());
-  Detections detections = take_person(std::move(people), options, pose.model.string());
+  Detections detections = take_person(std::move(content), options, pose.model.string());
   detections.format = "pose";
   return detections;
 }

@@ -118,6 +118,71 @@ void check(const Trajectory& marks, const std::vector<double>& times_s) {
   require(pelvis, "{}: the pelvis is marked on no frame; it is needed, click it", marks.video);
 }
 
+/// What one prior makes of the picture.
+struct Followed {
+  GaitPrior prior;                           // its period settled
+  std::vector<Reading> readings, predicted;  // marks and flow; a prediction by others
+  std::vector<FlowStretch> stretches;
+
+  /// Share of the unmarked points where the flow was believed.
+  double believed() const {
+    std::size_t steps = 0, believed = 0;
+    for (const FlowStretch& s : stretches) steps += static_cast<std::size_t>(s.last - s.first);
+    for (const Reading& r : readings) believed += r.believed;
+    return steps > 0 ? static_cast<double>(believed) / static_cast<double>(steps) : 0;
+  }
+};
+
+Followed followed(GaitPrior prior, const Trajectory& marks, const Footage& footage,
+                  const TrackOptions& options) {
+  const std::vector<double>& times_s = footage.times_s;
+  const int first = marks.frames.front().frame, last = marks.frames.back().frame;
+  const std::vector<double> span_s(times_s.begin() + first, times_s.begin() + last + 1);
+  const std::vector<Reading> unweighed = readings_of(marks);
+  GaitPrior weights = prior;
+  if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
+  Followed result;
+  for (int look = 0; look < kLooks; ++look) {
+    result.readings = unweighed;
+    weigh_marks(result.readings, marks, weights);
+    result.predicted.clear();
+    if (options.prior) add_prediction(result.predicted, *options.prior, marks, weights);
+    if (!options.flow || footage.sights.empty()) break;
+    const Estimates expected = estimate(
+        prior, observations_of(joined(result.readings, result.predicted), times_s), span_s, false);
+    result.stretches = follow(
+        marks, footage.sights,
+        [&](BodyPart part, int frame) {
+          return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
+        },
+        flow_options(body_size_px(marks)));
+    add_flow(result.readings, result.stretches, weights);
+    // The prediction has a period of its own, which says nothing new.
+    const double before_s = prior.legs.period_s;
+    prior = with_period_of(prior, observations_of(result.readings, times_s));
+    if (std::abs(prior.legs.period_s / before_s - 1) < kSettled) break;
+  }
+  result.prior = prior;
+  return result;
+}
+
+/// Where the clicks leave two periods, that one under which the picture is believed more often.
+Followed best_followed(const Trajectory& marks, const Footage& footage,
+                       const TrackOptions& options) {
+  constexpr double kSurely = 0.6;  // believed: other periods need not be tried
+  constexpr double kClearly = 0.1;
+  const auto first = footage.times_s.begin() + marks.frames.front().frame,
+             last = footage.times_s.begin() + marks.frames.back().frame;
+  const std::vector<GaitPrior> likely = likely_gait_priors(
+      observations_of(readings_of(marks), footage.times_s), period_bounds({first, last + 1}));
+  Followed best = followed(likely.front(), marks, footage, options);
+  if (likely.size() > 1 && !best.stretches.empty() && best.believed() < kSurely) {
+    Followed other = followed(likely.back(), marks, footage, options);
+    if (other.believed() > best.believed() + kClearly) return other;
+  }
+  return best;
+}
+
 }  // namespace
 
 Tracked track(const Trajectory& marks, const Footage& footage, const TrackOptions& options) {
@@ -125,36 +190,11 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
   check(marks, times_s);
   const int first = marks.frames.front().frame, last = marks.frames.back().frame;
   const std::vector<double> span_s(times_s.begin() + first, times_s.begin() + last + 1);
+  const Followed look = best_followed(marks, footage, options);
   Tracked tracked;
   TrackSummary& summary = tracked.summary;
-
-  const std::vector<Reading> unweighed = readings_of(marks);
-  summary.prior = fit_gait_prior(observations_of(unweighed, times_s));
-  GaitPrior weights = summary.prior;
-  if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
-  std::vector<Reading> readings, predicted;
-  std::vector<FlowStretch> stretches;
-  for (int look = 0; look < kLooks; ++look) {
-    readings = unweighed;
-    weigh_marks(readings, marks, weights);
-    predicted.clear();
-    if (options.prior) add_prediction(predicted, *options.prior, marks, weights);
-    if (!options.flow || footage.sights.empty()) break;
-    const Estimates expected = estimate(
-        summary.prior, observations_of(joined(readings, predicted), times_s), span_s, false);
-    stretches = follow(
-        marks, footage.sights,
-        [&](BodyPart part, int frame) {
-          return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
-        },
-        flow_options(body_size_px(marks)));
-    add_flow(readings, stretches, weights);
-    // The prediction has a period of its own, which says nothing new.
-    const double before_s = summary.prior.legs.period_s;
-    summary.prior = with_period_of(summary.prior, observations_of(readings, times_s));
-    if (std::abs(summary.prior.legs.period_s / before_s - 1) < kSettled) break;
-  }
-  readings = joined(readings, predicted);
+  summary.prior = look.prior;
+  std::vector<Reading> readings = joined(look.readings, look.predicted);
   Estimates estimates;
   for (int round = 0; round < kReweightings; ++round) {
     estimates = estimate(summary.prior, observations_of(readings, times_s), span_s,
@@ -165,11 +205,8 @@ Tracked track(const Trajectory& marks, const Footage& footage, const TrackOption
   summary.marked_frames = static_cast<int>(marks.frames.size());
   summary.shortfall = footage.shortfall;
   for (const BodyPart part : kBodyParts)
-    summary.miss_px[index(part)] = std::sqrt(2 * mean_squared_miss(stretches, part));
-  std::size_t followed = 0, believed = 0;
-  for (const FlowStretch& s : stretches) followed += static_cast<std::size_t>(s.last - s.first);
-  for (const Reading& r : readings) believed += r.believed;
-  summary.believed = followed > 0 ? static_cast<double>(believed) / followed : 0;
+    summary.miss_px[index(part)] = std::sqrt(2 * mean_squared_miss(look.stretches, part));
+  summary.believed = look.believed();
   tracked.trajectory = marks;
   tracked.trajectory.rate_hz = median_rate_hz(times_s);
   tracked.trajectory.frames = assembled(marks, estimates, readings, times_s, body_size_px(marks));

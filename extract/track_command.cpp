@@ -9,33 +9,55 @@
 #include "extract/commands.h"
 #include "extract/error.h"
 #include "extract/export.h"
+#include "extract/io/option_range.h"
 #include "extract/io/outputs.h"
 #include "extract/marked.h"
 #include "extract/overlay.h"
 #include "extract/pose.h"
 #include "extract/track_score.h"
+#include "extract/tracking/points_on_video.h"
+#include "extract/tracking/time_check.h"
+#include "extract/video.h"
 
 namespace stride {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t kFewestFrames = 8;
+
 struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
-  double slow_motion = 0;  // 0: as the keypoints say
+  std::optional<double> slow_motion;  // else as the keypoints say
   bool repair_legs = true;
   TrackOptions track;
   ImportOptions import;
   PoseOptions pose;
 };
 
-/// A line on stderr that is rewritten, only where somebody watches.
+/// A line on stderr that is rewritten where somebody watches.
 void show_progress(int frame, int last) {
+  constexpr int kSeldom = 1000;  // where nobody watches
   if (::isatty(STDERR_FILENO))
     fmt::print(stderr, "\rframe {} of {}{}", frame, last, frame == last ? "\n" : "");
+  else if (frame > 0 && frame % kSeldom == 0)
+    fmt::print(stderr, "frame {} of {}\n", frame, last);
 }
 
 bool is_detected(const Request& request) {
   return !request.import_from.empty() || !request.pose.model.empty();
+}
+
+/// Who else is in the file.
+std::string others(const Detections& detections) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(detections.people.size(), 4); ++i) {
+    if (static_cast<int>(i) + 1 == detections.person) continue;
+    const ImportedPerson& person = detections.people[i];
+    text +=
+        fmt::format("{} --person {} ({} frames from {} to {})", text.empty() ? "; others:" : ",",
+                    i + 1, person.frames, person.first_frame, person.last_frame);
+  }
+  return text;
 }
 
 /// The points of another program or of a pose model on the frames of the video.
@@ -43,24 +65,23 @@ Marked detected(const Request& request) {
   require(request.import_from.empty() || request.pose.model.empty(),
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
-  const double slow_motion = request.slow_motion > 0 ? request.slow_motion : 1;
-  const VideoTimes times = video_times(request.video, slow_motion);
   ImportOptions options = request.import;
-  if (options.rate_hz == 0) options.rate_hz = times.info.rate_hz;
+  if (options.rate_hz == 0) options.rate_hz = Video(request.video).info().rate_hz;
   const Detections detections = request.pose.model.empty()
                                     ? import_points(request.import_from, options)
                                     : pose_points(request.video, request.pose, options);
-  fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n",
+  fmt::print(stderr, "{}: {} frames of {}, person {} of {}{}\n",
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
-             detections.people.size());
-  return points_on(request.video, detections, times, slow_motion, request.repair_legs);
+             detections.people.size(), others(detections));
+  return points_on(request.video, detections,
+                   {request.slow_motion.value_or(1), request.repair_legs, options});
 }
 
 Marked clicked(const Request& request) {
   const fs::path file =
       request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  return clicks_on(request.video, file, request.slow_motion);
+  return clicks_on(request.video, file, request.slow_motion.value_or(0));
 }
 
 void report(const Tracked& tracked) {
@@ -68,10 +89,15 @@ void report(const Tracked& tracked) {
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
-             "stride period {:.3f} s, noise of the marks {:.1f} px, flow believed on {:.0f} % of "
-             "the unmarked points\n",
+             "stride {}, noise of the marks {:.1f} px, flow believed on {:.0f} % of the unmarked "
+             "points\n",
              tracked.summary.marked_frames, t.frames.front().frame, t.frames.back().frame,
-             legs.period_s, legs.noise_px, 100 * tracked.summary.believed);
+             tracked.summary.marked_frames < static_cast<int>(kFewestFrames)
+                 ? "period not known"
+                 : fmt::format("period {:.3f} s", legs.period_s),
+             legs.noise_px, 100 * tracked.summary.believed);
+  if (const std::string doubt = doubt_of_period(legs.period_s); !doubt.empty())
+    fmt::print(stderr, "warning: {}\n", doubt);
   std::vector<double> residuals;
   for (const TrajectoryFrame& frame : t.frames)
     if (frame.camera_px.allFinite()) residuals.push_back(frame.camera_residual_px);
@@ -114,12 +140,24 @@ void run(Request request) {
     return;
   }
   const Marked marked = is_detected(request) ? detected(request) : clicked(request);
+  const std::size_t frames = marked.marks.frames.size();
+  require(frames != 1, "one frame is marked: that tells no motion; mark {} or more", kFewestFrames);
+  if (frames < kFewestFrames)
+    fmt::print(stderr,
+               "warning: {} frames are marked: too short for a stride, {} or more tell one\n",
+               frames, kFewestFrames);
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
   WatchOptions watching;
   watching.progress = show_progress;
   watching.sights = request.track.flow;
+  if (marked.slow_motion == 1) {
+    const VideoInfo info = Video(request.video).info();
+    if (const std::string doubt = doubt_of_rates(info.capture_rate_hz, info.rate_hz);
+        !doubt.empty())
+      fmt::print(stderr, "warning: {}\n", doubt);
+  }
   const Tracked tracked = track(request.video, marked, request.track, watching);
   report(tracked);
 
@@ -160,8 +198,10 @@ void add_track_command(CLI::App& app) {
   command.add_option("--overlay", request->overlay, "draw the points on the video: an .mp4");
   command.add_option("--prior", request->prior,
                      "a trajectory in pixels that predicts the motion, as of a fitted body model");
-  command.add_option("--slow-motion", request->slow_motion,
-                     "seconds of video a second of the runner (default: as the clicks say)");
+  command
+      .add_option("--slow-motion", request->slow_motion,
+                  "seconds of video a second of the runner (default: as the clicks say)")
+      ->check(in_range(0.05, 100));
   command.add_flag("--keep-marks", request->track.keep_marks,
                    "go exactly through every click instead of averaging their noise out");
   command.add_flag("!--no-flow", request->track.flow, "do not look at the picture between clicks");

@@ -9,6 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/error.h"
+#include "extract/io/file_kind.h"
 #include "extract/video/container.h"
 
 namespace stride {
@@ -56,6 +57,37 @@ cv::Mat turned(const cv::Mat& stored, const Turn& turn) {
     return flipped;
   }
   return image;
+}
+
+bool is_folder_of_images(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (kind_of(entry.path()) == FileKind::image) return true;
+  return false;
+}
+
+/// Throws Error, with the cure, for what is not a file: what people give to other programs.
+void require_file(const fs::path& file) {
+  constexpr const char* kSequence =
+      "a sequence of images: make a video of it, ffmpeg -framerate 30 -i frame_%04d.png run.mp4 "
+      "(at the rate of the camera)";
+  const std::string name = file.string();
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    require(!is_folder_of_images(file), "{}: is {}", name, kSequence);
+    throw Error(
+        fmt::format("{}: is a folder, one video is needed (stride convert takes folders)", name));
+  }
+  if (fs::exists(file, error)) {
+    require(fs::is_regular_file(file), "{}: is not a file, a video is needed", name);
+    return;
+  }
+  require(name.find("://") == name.npos,
+          "{}: is an address (URL), a file is needed: download the video first", name);
+  require(name.find('%') == name.npos && name.find('*') == name.npos,
+          "{}: no such video; if it is {}", name, kSequence);
+  require(name.empty() || name.find_first_not_of("0123456789") != name.npos,
+          "{}: no such video; a camera cannot be read, record a video first", name);
+  throw Error(fmt::format("{}: no such video", name));
 }
 
 /// FFmpeg's own lines on stderr say less than our errors do.
@@ -108,8 +140,7 @@ Video::Video(Video&&) noexcept = default;
 Video& Video::operator=(Video&&) noexcept = default;
 
 Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_unique<Decoder>()) {
-  require(fs::exists(file), "{}: no such video", file.string());
-  require(fs::is_regular_file(file), "{}: is not a file, a video is needed", file.string());
+  require_file(file);
   require(std::isfinite(slow_motion) && slow_motion > 0,
           "slow-motion factor = {}: must be positive (4: a second of the runner takes four)",
           slow_motion);

@@ -42,10 +42,10 @@ bool is_sided_part(std::string_view letters, BodyPart part) {
       return is_any(part == BodyPart::hip_r, {"hip", "hipjoint"});
     case BodyPart::knee_r:
     case BodyPart::knee_l:
-      return is_any(part == BodyPart::knee_r, {"knee", "kneejoint"});
+      return is_any(part == BodyPart::knee_r, {"knee", "kneejoint", "kne"});
     case BodyPart::ankle_r:
     case BodyPart::ankle_l:
-      return is_any(part == BodyPart::ankle_r, {"ankle", "anklejoint"});
+      return is_any(part == BodyPart::ankle_r, {"ankle", "anklejoint", "ank"});
     case BodyPart::toe_r:
     case BodyPart::toe_l:
       return is_any(part == BodyPart::toe_r,
@@ -74,7 +74,7 @@ LabelMap::LabelMap(std::span<const std::string> labels,
     for (const BodyPart part : kBodyParts)
       if (is_sided_part(letters, part)) targets.push_back({part, kExact});
     if (is_one_of(letters, {"pelvis", "midhip", "hipmid", "hip", "hips", "chip", "hipcenter",
-                            "hipcentre", "centerhip", "root"}))
+                            "hipcentre", "centerhip", "root", "sacr", "sacrum"}))
       targets.push_back({BodyPart::pelvis, kExact});
     if (letters == "head" || letters == "headcenter" || letters == "headcentre")
       targets.push_back({BodyPart::head, kExact});
@@ -116,6 +116,13 @@ std::array<Point, kBodyPartCount> LabelMap::parts(std::span<const Point> points)
   if (!pelvis.present() && right.present() && left.present())
     pelvis = {(right.p_px + left.p_px) / 2, std::min(right.confidence, left.confidence)};
   return parts;
+}
+
+std::vector<std::string> LabelMap::unused(std::span<const std::string> labels) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (targets_[i].empty() && !labels[i].empty()) names.push_back(labels[i]);
+  return names;
 }
 
 std::vector<std::string> layout_of(std::size_t points) {

@@ -105,6 +105,23 @@ FileKind kind_of(const fs::path& file) {
   return kind_of_content(head);
 }
 
+bool is_binary(FileKind kind) {
+  switch (kind) {
+    case FileKind::image:
+    case FileKind::video:
+    case FileKind::zip:
+    case FileKind::hdf5:
+    case FileKind::pickle:
+    case FileKind::matlab:
+    case FileKind::numpy:
+    case FileKind::c3d:
+    case FileKind::binary:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::string_view name(FileKind kind) {
   switch (kind) {
     case FileKind::missing:

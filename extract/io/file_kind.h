@@ -42,6 +42,9 @@ FileKind kind_of(const std::filesystem::path& file);
 /// The same from the first bytes, some thousand of them if there are so many.
 FileKind kind_of_content(std::string_view head);
 
+/// Whether it holds no text.
+bool is_binary(FileKind kind);
+
 /// For a person: "a video", "a zip archive or an Excel workbook", …
 std::string_view name(FileKind kind);
 

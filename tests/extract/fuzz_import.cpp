@@ -10,10 +10,10 @@
 
 namespace stride {
 
-DetectedPeople openpose(std::string_view content, const std::string& file, const ImportOptions&) {
+ImportedFile openpose(std::string_view content, const std::string& file, const ImportOptions&) {
   return read_openpose(content, file, 0);
 }
-DetectedPeople json(std::string_view content, const std::string& file, const ImportOptions&) {
+ImportedFile json(std::string_view content, const std::string& file, const ImportOptions&) {
   return read_own_json(content, file);
 }
 
