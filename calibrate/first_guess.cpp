@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "extract/median.h"
-#include "extract/tracking/robust_fit.h"
+#include "extract/skeleton/robust_fit.h"
 
 namespace stride {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "calibrate/marks.h"
 #include "calibrate/runner.h"
-#include "extract/tracking/stride_period.h"
+#include "extract/skeleton/stride_period.h"
 
 namespace stride {
 

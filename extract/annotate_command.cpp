@@ -17,7 +17,7 @@
 #include "extract/file.h"
 #include "extract/marked.h"
 #include "extract/pose.h"
-#include "extract/tracking/points_on_video.h"
+#include "extract/annotation/points_on_video.h"
 
 namespace stride {
 namespace fs = std::filesystem;

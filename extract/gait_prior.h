@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "extract/body_part.h"
-#include "extract/tracking/stride_period.h"
+#include "extract/skeleton/stride_period.h"
 
 namespace stride {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "extract/tracking/stride_period.h"
+#include "extract/skeleton/stride_period.h"
 
 namespace stride {
 

@@ -15,7 +15,7 @@
 #include "extract/overlay.h"
 #include "extract/pose.h"
 #include "extract/track_score.h"
-#include "extract/tracking/points_on_video.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/tracking/time_check.h"
 #include "extract/video.h"
 

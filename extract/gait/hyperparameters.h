@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "extract/gait/samples.h"
-#include "extract/tracking/stride_period.h"
+#include "extract/skeleton/stride_period.h"
 
 namespace stride {
 

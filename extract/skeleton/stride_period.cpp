@@ -1,11 +1,11 @@
-#include "extract/tracking/stride_period.h"
+#include "extract/skeleton/stride_period.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "extract/median.h"
-#include "extract/tracking/robust_fit.h"
+#include "extract/skeleton/robust_fit.h"
 
 namespace stride {
 namespace {

@@ -1,4 +1,4 @@
-#include "extract/tracking/points_on_video.h"
+#include "extract/annotation/points_on_video.h"
 
 #include <algorithm>
 

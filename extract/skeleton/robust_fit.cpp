@@ -1,4 +1,4 @@
-#include "extract/tracking/robust_fit.h"
+#include "extract/skeleton/robust_fit.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
