@@ -32,6 +32,7 @@ struct Prediction {
   std::vector<int> suspects;  // frames where left and right seem to be swapped
   int revision = -1;          // AnnotationDocument::revision() of the clicks it was made from
   std::string problem;        // why there is none, for the user
+  std::string doubt;          // of the clip's time, with the cure
 };
 
 struct AnnotationOptions {

@@ -131,18 +131,19 @@ void AnnotationCanvas::draw_status() {
   const double letters = std::min(0.5, 0.5 * (size.width - x - 10) / text_width(click, 0.5));
   draw_text(canvas_, click, {x, y}, colour::kText, letters);
   x += text_width(click, letters) + 30;
-  const std::string& message = s_.message_;
+  const bool in_doubt = s_.message_.empty();
+  const std::string& message = in_doubt ? s_.prediction_.doubt : s_.message_;
   if (message.empty()) return;
+  const cv::Scalar& paint = s_.wrong_ || in_doubt ? colour::kWrong : colour::kGood;
   const int room = size.width - x - 10;
   if (text_width(message) > room) {
     // A long message gets a line of its own above the timeline.
     const int top = timeline_top(size);
     shade(canvas_, {0, top - 24, size.width, 24}, 0.3);
-    draw_text(canvas_, message, {10, top - 8}, s_.wrong_ ? colour::kWrong : colour::kGood);
+    draw_text(canvas_, message, {10, top - 8}, paint);
     return;
   }
-  draw_text(canvas_, message, {size.width - 10 - text_width(message), y},
-            s_.wrong_ ? colour::kWrong : colour::kGood);
+  draw_text(canvas_, message, {size.width - 10 - text_width(message), y}, paint);
 }
 
 void AnnotationCanvas::draw_help() {

@@ -7,6 +7,7 @@
 #include "extract/annotation/asking.h"
 #include "extract/leg_identity.h"
 #include "extract/track.h"
+#include "extract/tracking/time_check.h"
 
 namespace stride {
 namespace {
@@ -70,6 +71,9 @@ std::optional<Prediction> predict(const Keypoints& keypoints, FrameStore& frames
     prediction.trajectory = tracked.trajectory;
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);
+    if (prediction.stride_frames > 0)
+      prediction.doubt = doubt_of_period(prediction.stride_frames /
+                                         (frames.info().rate_hz * keypoints.slow_motion));
   } catch (const GivenUp&) {
     return std::nullopt;
   }

@@ -72,32 +72,6 @@ Track* continued(std::vector<Track>& tracks, const DetectedPerson& person, doubl
   return best;
 }
 
-struct Joined {
-  std::vector<Track> tracks;  // largest sustained first
-  int twice = 0;              // how often somebody was there twice on a frame
-};
-Joined join(const DetectedPeople& people) {
-  Joined joined;
-  std::vector<Track>& tracks = joined.tracks;
-  for (const DetectedPerson& person : people) {
-    if (!has_points(person)) continue;
-    const double height_px = std::max(box(person.points).sizes().y(), 1.0);
-    Track* track = continued(tracks, person, height_px);
-    if (!track && std::ranges::any_of(tracks, [&](const Track& t) {
-          return !person.id.empty() && t.id == person.id;
-        })) {
-      ++joined.twice;  // the first counts
-      continue;
-    }
-    if (!track) track = &tracks.emplace_back(Track{person.id, {}, {}});
-    track->seen.push_back(&person);
-    track->heights_px.push_back(height_px);
-  }
-  join_the_lost(tracks);
-  std::ranges::stable_sort(tracks, std::ranges::greater(), &Track::weight);
-  return joined;
-}
-
 /// Whether anybody else is seen between two frames, both included.
 bool is_alone(const std::vector<Track>& tracks, const Track& a, const Track& b) {
   const int from = a.seen.back()->frame, to = b.seen.front()->frame;
@@ -124,6 +98,32 @@ void join_the_lost(std::vector<Track>& tracks) {
       tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(j));
       j = i;
     }
+}
+
+struct Joined {
+  std::vector<Track> tracks;  // largest sustained first
+  int twice = 0;              // how often somebody was there twice on a frame
+};
+Joined join(const DetectedPeople& people) {
+  Joined joined;
+  std::vector<Track>& tracks = joined.tracks;
+  for (const DetectedPerson& person : people) {
+    if (!has_points(person)) continue;
+    const double height_px = std::max(box(person.points).sizes().y(), 1.0);
+    Track* track = continued(tracks, person, height_px);
+    if (!track && std::ranges::any_of(tracks, [&](const Track& t) {
+          return !person.id.empty() && t.id == person.id;
+        })) {
+      ++joined.twice;  // the first counts
+      continue;
+    }
+    if (!track) track = &tracks.emplace_back(Track{person.id, {}, {}});
+    track->seen.push_back(&person);
+    track->heights_px.push_back(height_px);
+  }
+  join_the_lost(tracks);
+  std::ranges::stable_sort(tracks, std::ranges::greater(), &Track::weight);
+  return joined;
 }
 
 ImportedPerson summary(const Track& track) {
