@@ -9,6 +9,7 @@
 #include <opencv2/highgui.hpp>
 
 #include "extract/annotation/background_tracker.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/annotation/predict.h"
 #include "extract/annotation/qt_zoom.h"
 #include "extract/annotation/script.h"
@@ -17,7 +18,6 @@
 #include "extract/file.h"
 #include "extract/marked.h"
 #include "extract/pose.h"
-#include "extract/annotation/points_on_video.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -143,15 +143,18 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
   window.changed = true;
 }
 
-void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameStore& frames) {
+void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameStore& frames,
+                cv::Size size_px) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
   QtZoom qt_zoom(title);
-  cv::namedWindow(title, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
+  cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_GUI_NORMAL);
+  cv::resizeWindow(title, size_px);
   Window window{session, qt_zoom};
   cv::setMouseCallback(title, on_mouse, &window);
   int decoded = -1;
-  auto last_event = Clock::now();
+  auto last_event = Clock::now(), last_frame = last_event;
+  const auto frame_time = std::chrono::duration<double>(session.frame_s());
   while (!session.done()) {
     tracker.submit(session.keypoints(), session.revision());
     if (auto prediction = tracker.poll()) {
@@ -165,7 +168,19 @@ void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameSto
       window.changed = false;
       last_event = Clock::now();
     }
-    const int key = cv::waitKeyEx(15);
+    const cv::Rect shown =
+        cv::getWindowImageRect(title);  // resized, maximised, or cut to the screen
+    if (shown.width > 1 && shown.height > 1 && shown.size() != size_px) {
+      size_px = shown.size();
+      session.resize(size_px);
+      window.changed = true;
+    }
+    if (session.playing() && Clock::now() - last_frame >= frame_time) {
+      last_frame = Clock::now();
+      session.show_next();
+      window.changed = true;
+    }
+    const int key = cv::waitKeyEx(session.playing() ? 2 : 15);
     qt_zoom.take_back();
     if (key >= 0) {
       AnnotationEvent event;
@@ -208,7 +223,7 @@ void run(Request request) {
   });
   AnnotationSession session(journal, frames, request.session);
   if (request.script.empty()) {
-    run_window(session, tracker, frames);
+    run_window(session, tracker, frames, request.session.canvas_px);
   } else {
     frames.wait();
     run_script(session, request.script, [&] {
