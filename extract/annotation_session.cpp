@@ -151,7 +151,7 @@ void AnnotationSession::resize(cv::Size canvas_px) {
 void AnnotationSession::show_next() {
   const auto& trim = keypoints().trim;
   const int first = trim ? trim->first : 0,
-            last = std::min(trim ? trim->second : frames_.count() - 1, frames_.count() - 1);
+            last = std::min(trim ? trim->last : frames_.count() - 1, frames_.count() - 1);
   go_to(frame_ >= last || frame_ < first ? first : frame_ + 1);
 }
 
