@@ -1,25 +1,25 @@
 #pragma once
 
-#include "calibrate/calibrated.h"
-#include "calibrate/fit.h"
-#include "calibrate/gait.h"
-#include "calibrate/verdict.h"
-#include "extract/trajectory.h"
+#include "calibrate/fit/fit.h"
+#include "calibrate/gait/gait.h"
+#include "calibrate/gait/verdict.h"
+#include "calibrate/runner/calibrated.h"
+#include "extract/skeleton/trajectory.h"
 
 namespace stride {
 
 /// Everything that is found out about a clip.
 struct Calibration {
-  Verdict verdict;
-  Marks observations;
-  StrideFit fit;  // ok false where the clip was refused before or by the fit
-  Gait gait;
+  gait::Verdict verdict;
+  fit::Marks observations;
+  fit::StrideFit fit;  // ok false where the clip was refused before or by the fit
+  gait::Gait gait;
   CalibratedTrajectory run;  // on the model's proportions; no samples if there is no fit
 };
 
 /// Trajectory in pixels → run in metres on the model. A clip that cannot be explained is a value:
 /// `verdict.refused`.
 Calibration calibrate(const Trajectory& trajectory, const SagittalModel& model,
-                      const FitOptions& options = {});
+                      const fit::FitOptions& options = {});
 
 }  // namespace stride

@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "calibrate/calibrate.h"
-#include "calibrate/fit_options.h"
+#include "calibrate/fit/fit_options.h"
 #include "calibrate/fitted.h"
-#include "calibrate/report.h"
-#include "calibrate/report_frames.h"
-#include "extract/error.h"
-#include "extract/file.h"
+#include "calibrate/report/report.h"
+#include "calibrate/report/report_frames.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
 #include "extract/io/outputs.h"
-#include "extract/overlay.h"
+#include "extract/video/overlay.h"
 
 namespace stride {
 namespace {
@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommand {
-  fs::path trajectory, out, fitted, video, overlay, model = default_model_file();
-  RunnerSize size;
+  fs::path trajectory, out, fitted, video, overlay, model = osim::default_model_file();
+  fit::RunnerSize size;
   std::string direction;
   bool force = false, no_picture = false, mot = false;
 };
@@ -60,7 +60,7 @@ void check_files(const CalibrateCommand& command, const Files& files) {
 
 /// The video to draw on; empty if none is named and none lies beside the trajectory.
 fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory) {
-  if (command.video.empty()) return video_in(command.trajectory.parent_path(), trajectory);
+  if (command.video.empty()) return report::video_in(command.trajectory.parent_path(), trajectory);
   require(fs::exists(command.video), "--video {}: no such file", command.video.string());
   require(sha256_of_file(command.video) == trajectory.video_sha256,
           "--video {}: is not the video that was tracked ({}); give that one, or none",
@@ -73,20 +73,20 @@ void run(const CalibrateCommand& command) {
   check_files(command, files);
   Trajectory trajectory = load_trajectory(command.trajectory);
   if (!command.direction.empty()) trajectory.direction = command.direction;
-  const SagittalModel model = sagittal_model(load_osim(command.model));
-  const Calibration result = calibrate(trajectory, model, fit_options(command.size));
+  const SagittalModel model = sagittal_model(osim::load_osim(command.model));
+  const Calibration result = calibrate(trajectory, model, fit::fit_options(command.size));
 
-  const std::string report = report_text(trajectory, model, result);
+  const std::string report = report::report_text(trajectory, model, result);
   write_file_atomically(files.text, report);
   fmt::print(stderr, "{}", report);
   if (result.fit.ok && !command.no_picture)
-    draw_report(trajectory, model, result, video_of(command, trajectory), files.picture);
+    report::draw_report(trajectory, model, result, video_of(command, trajectory), files.picture);
   if (result.fit.ok && !command.overlay.empty()) {
     const fs::path video = video_of(command, trajectory);
     require(!video.empty(),
             "--overlay {}: the video {} does not lie beside the trajectory; give it by --video",
             command.overlay.string(), trajectory.video);
-    write_overlay(video, fitted_points(trajectory, model, result), command.overlay);
+    video::write_overlay(video, fitted_points(trajectory, model, result), command.overlay);
   }
   require(!result.verdict.refused || (command.force && result.fit.ok),
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
@@ -96,7 +96,7 @@ void run(const CalibrateCommand& command) {
     save(fitted_px(trajectory, model, result), command.fitted);
     fmt::print("{}\n", command.fitted.string());
   }
-  if (command.mot) save_mot(result.run, files.motion);
+  if (command.mot) report::save_mot(result.run, files.motion);
   fmt::print("{}\n", files.run.string());
 }
 

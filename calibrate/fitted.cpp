@@ -9,13 +9,14 @@ constexpr int kPhases = 24;
 
 /// Standard deviation of a part about the pelvis, over both coordinates, at equal steps of phase
 /// from that of the middle of the clip.
-std::array<double, kPhases> sd_px(const StrideFit& fit, const Directions& directions,
+std::array<double, kPhases> sd_px(const fit::StrideFit& fit, const Directions& directions,
                                   BodyPart part) {
   const double period_s = fit.runner.cadence[cadence::period_s];
-  const Eigen::VectorXd sd = propagated_sd(fit, [&](const StrideFit& moved) {
+  const Eigen::VectorXd sd = fit::propagated_sd(fit, [&](const fit::StrideFit& moved) {
     Eigen::VectorXd places(2 * kPhases);
     for (int i = 0; i < kPhases; ++i)
-      places.segment<2>(2 * i) = about_pelvis_px(moved, directions, part, period_s * i / kPhases);
+      places.segment<2>(2 * i) =
+          fit::about_pelvis_px(moved, directions, part, period_s * i / kPhases);
     return places;
   });
   std::array<double, kPhases> result;
@@ -34,17 +35,17 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
       const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
       const bool known = toe ? c.fit.toes_seen : part != BodyPart::head || c.fit.head_seen;
       const Eigen::Vector2d z =
-          predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
+          fit::predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
       fitted.frames[i][part] =
-          known ? Point{image_px(trajectory, c.observations.to_left, z), 1} : Point{};
+          known ? Point{fit::image_px(trajectory, c.observations.to_left, z), 1} : Point{};
     }
   return fitted;
 }
 
 Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
                      const Calibration& result) {
-  const StrideFit& fit = result.fit;
-  const Marks& marks = result.observations;
+  const fit::StrideFit& fit = result.fit;
+  const fit::Marks& marks = result.observations;
   const Directions directions(model);
   Trajectory fitted = fitted_points(trajectory, model, result);
   for (const BodyPart part : kBodyParts) {

@@ -8,16 +8,16 @@
 #include <memory>
 #include <opencv2/highgui.hpp>
 
-#include "extract/annotation/background_tracker.h"
+#include "extract/annotation/labelled_clip.h"
 #include "extract/annotation/points_on_video.h"
-#include "extract/annotation/predict.h"
 #include "extract/annotation/qt_zoom.h"
-#include "extract/annotation/script.h"
+#include "extract/annotation/session/background_tracker.h"
+#include "extract/annotation/session/predict.h"
+#include "extract/annotation/session/script.h"
 #include "extract/commands.h"
-#include "extract/error.h"
-#include "extract/file.h"
-#include "extract/marked.h"
-#include "extract/pose.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/pose/pose_points.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -28,9 +28,9 @@ using Clock = std::chrono::steady_clock;
 struct Request {
   fs::path video, keypoints, script, import_from;
   std::vector<int> window{1280, 860};
-  AnnotationOptions session;
-  ImportOptions import;
-  PoseOptions pose;
+  annotation::AnnotationOptions session;
+  imports::ImportOptions import;
+  pose::PoseOptions pose;
   bool repair_legs = true, keys = false;
 };
 
@@ -53,7 +53,7 @@ void require_display() {
           is_set("DISPLAY") ? std::getenv("DISPLAY") : "the Wayland or Qt platform", kCure);
 }
 
-Keypoints fresh_keypoints(const fs::path& video, const VideoInfo& info) {
+Keypoints fresh_keypoints(const fs::path& video, const video::VideoInfo& info) {
   Keypoints keypoints;
   keypoints.video = video.filename().string();
   keypoints.video_sha256 = sha256_of_file(video);
@@ -64,20 +64,22 @@ Keypoints fresh_keypoints(const fs::path& video, const VideoInfo& info) {
 
 /// The points of another program or of a pose model become clicks, where there are none: one step
 /// for undo.
-void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal& journal) {
+void import_clicks(const Request& request, video::FrameStore& frames,
+                   annotation::AnnotationJournal& journal) {
   const bool by_model = !request.pose.model.empty();
   const fs::path& from = by_model ? request.pose.model : request.import_from;
   require(!by_model || request.import_from.empty(), "--import {} and --pose {}: give one of them",
           request.import_from.string(), from.string());
-  ImportOptions options = request.import;
+  imports::ImportOptions options = request.import;
   if (options.rate_hz == 0) options.rate_hz = frames.info().rate_hz;
-  const Detections detections =
-      by_model ? pose_points(request.video, request.pose, options) : import_points(from, options);
+  const imports::Detections detections =
+      by_model ? pose::pose_points(request.video, request.pose, options)
+               : imports::import_points(from, options);
   frames.wait();
-  const Marked marked =
-      points_on(request.video, detections, {1, request.repair_legs, request.import});
-  Change change{fmt::format("points of {}", from.filename().string()), {}, {}};
-  for (const TrajectoryFrame& imported : marked.marks.frames) {
+  const tracking::LabelledClip labelled =
+      tracking::points_on(request.video, detections, {1, request.repair_legs, request.import});
+  annotation::Change change{fmt::format("points of {}", from.filename().string()), {}, {}};
+  for (const TrajectoryFrame& imported : labelled.marks.frames) {
     const int number = imported.frame;
     if (number >= frames.count() || journal.document().keypoints().frames.contains(number))
       continue;
@@ -100,16 +102,16 @@ void import_clicks(const Request& request, FrameStore& frames, AnnotationJournal
 
 /// What the mouse callback tells the loop below.
 struct Window {
-  AnnotationSession& session;
-  QtZoom& qt_zoom;
+  annotation::AnnotationSession& session;
+  annotation::QtZoom& qt_zoom;
   bool changed = true;
 };
 
 void on_mouse(int type, int x, int y, int flags, void* data) {
   auto& window = *static_cast<Window*>(data);
-  using Kind = AnnotationEvent::Kind;
-  using Button = AnnotationEvent::Button;
-  AnnotationEvent event;
+  using Kind = annotation::AnnotationEvent::Kind;
+  using Button = annotation::AnnotationEvent::Button;
+  annotation::AnnotationEvent event;
   event.p_canvas = {static_cast<double>(x), static_cast<double>(y)};
   switch (type) {
     case cv::EVENT_LBUTTONDOWN:
@@ -143,11 +145,11 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
   window.changed = true;
 }
 
-void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameStore& frames,
-                cv::Size size_px) {
+void run_window(annotation::AnnotationSession& session, annotation::BackgroundTracker& tracker,
+                video::FrameStore& frames, cv::Size size_px) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
-  QtZoom qt_zoom(title);
+  annotation::QtZoom qt_zoom(title);
   cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_GUI_NORMAL);
   cv::resizeWindow(title, size_px);
   Window window{session, qt_zoom};
@@ -183,8 +185,8 @@ void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameSto
     const int key = cv::waitKeyEx(session.playing() ? 2 : 15);
     qt_zoom.take_back();
     if (key >= 0) {
-      AnnotationEvent event;
-      event.kind = AnnotationEvent::Kind::key;
+      annotation::AnnotationEvent event;
+      event.kind = annotation::AnnotationEvent::Kind::key;
       event.key = key;
       session.handle(event);
       window.changed = true;
@@ -200,7 +202,8 @@ void run_window(AnnotationSession& session, BackgroundTracker& tracker, FrameSto
 void run(Request request) {
   if (request.keys) {
     fmt::print("| keys | |\n|---|---|\n");
-    for (const KeyHelp& help : key_help()) fmt::print("| {} | {} |\n", help.keys, help.does);
+    for (const annotation::KeyHelp& help : annotation::key_help())
+      fmt::print("| {} | {} |\n", help.keys, help.does);
     return;
   }
   require(!request.video.empty(), "VIDEO is missing: give the video to annotate");
@@ -209,24 +212,25 @@ void run(Request request) {
   request.session.canvas_px = {request.window[0], request.window[1]};
   require(request.window[0] >= 800 && request.window[1] >= 500,
           "--window {} {}: must be at least 800 500", request.window[0], request.window[1]);
-  FrameStore frames(request.video);
+  video::FrameStore frames(request.video);
   const fs::path file =
       request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  AnnotationJournal journal(file, fresh_keypoints(request.video, frames.info()));
+  annotation::AnnotationJournal journal(file, fresh_keypoints(request.video, frames.info()));
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
   if (!request.import_from.empty() || !request.pose.model.empty())
     import_clicks(request, frames, journal);
-  BackgroundTracker tracker([&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
-    return predict(keypoints, frames, given_up);
-  });
-  AnnotationSession session(journal, frames, request.session);
+  annotation::BackgroundTracker tracker(
+      [&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
+        return annotation::predict(keypoints, frames, given_up);
+      });
+  annotation::AnnotationSession session(journal, frames, request.session);
   if (request.script.empty()) {
     run_window(session, tracker, frames, request.session.canvas_px);
   } else {
     frames.wait();
-    run_script(session, request.script, [&] {
+    annotation::run_script(session, request.script, [&] {
       tracker.submit(session.keypoints(), session.revision());
       session.set_prediction(tracker.wait());
     });
@@ -254,8 +258,8 @@ void add_annotate_command(CLI::App& app) {
   command.add_flag("--head", request->session.head, "ask for the head too");
   command.add_option("--import", request->import_from,
                      "points of another program to correct: a file or a folder");
-  add_import_options(command, request->import);
-  add_pose_options(command, request->pose);
+  imports::add_import_options(command, request->import);
+  pose::add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_flag("--keys", request->keys, "print the table of keys and leave");

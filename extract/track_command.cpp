@@ -6,18 +6,18 @@
 #include <memory>
 #include <optional>
 
+#include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/commands.h"
-#include "extract/error.h"
-#include "extract/export.h"
+#include "extract/import/export.h"
+#include "extract/io/error.h"
 #include "extract/io/option_range.h"
 #include "extract/io/outputs.h"
-#include "extract/marked.h"
-#include "extract/overlay.h"
-#include "extract/pose.h"
-#include "extract/track_score.h"
-#include "extract/annotation/points_on_video.h"
+#include "extract/pose/pose_points.h"
 #include "extract/tracking/time_check.h"
-#include "extract/video.h"
+#include "extract/tracking/track_score.h"
+#include "extract/video/overlay.h"
+#include "extract/video/video.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -29,9 +29,9 @@ struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
   std::optional<double> slow_motion;  // else as the keypoints say
   bool repair_legs = true;
-  TrackOptions track;
-  ImportOptions import;
-  PoseOptions pose;
+  tracking::TrackOptions track;
+  imports::ImportOptions import;
+  pose::PoseOptions pose;
 };
 
 /// A line on stderr that is rewritten where somebody watches.
@@ -48,11 +48,11 @@ bool is_detected(const Request& request) {
 }
 
 /// Who else is in the file.
-std::string others(const Detections& detections) {
+std::string others(const imports::Detections& detections) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(detections.people.size(), 4); ++i) {
     if (static_cast<int>(i) + 1 == detections.person) continue;
-    const ImportedPerson& person = detections.people[i];
+    const imports::ImportedPerson& person = detections.people[i];
     text +=
         fmt::format("{} --person {} ({} frames from {} to {})", text.empty() ? "; others:" : ",",
                     i + 1, person.frames, person.first_frame, person.last_frame);
@@ -61,42 +61,42 @@ std::string others(const Detections& detections) {
 }
 
 /// The points of another program or of a pose model on the frames of the video.
-Marked detected(const Request& request) {
+tracking::LabelledClip detected(const Request& request) {
   require(request.import_from.empty() || request.pose.model.empty(),
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
-  ImportOptions options = request.import;
-  if (options.rate_hz == 0) options.rate_hz = Video(request.video).info().rate_hz;
-  const Detections detections = request.pose.model.empty()
-                                    ? import_points(request.import_from, options)
-                                    : pose_points(request.video, request.pose, options);
+  imports::ImportOptions options = request.import;
+  if (options.rate_hz == 0) options.rate_hz = video::Video(request.video).info().rate_hz;
+  const imports::Detections detections =
+      request.pose.model.empty() ? imports::import_points(request.import_from, options)
+                                 : pose::pose_points(request.video, request.pose, options);
   fmt::print(stderr, "{}: {} frames of {}, person {} of {}{}\n",
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
              detections.people.size(), others(detections));
-  return points_on(request.video, detections,
-                   {request.slow_motion.value_or(1), request.repair_legs, options});
+  return tracking::points_on(request.video, detections,
+                             {request.slow_motion.value_or(1), request.repair_legs, options});
 }
 
-Marked clicked(const Request& request) {
+tracking::LabelledClip clicked(const Request& request) {
   const fs::path file =
       request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  return clicks_on(request.video, file, request.slow_motion.value_or(0));
+  return tracking::clicks_on(request.video, file, request.slow_motion.value_or(0));
 }
 
-void report(const Tracked& tracked) {
-  const GaitKernel& legs = tracked.summary.prior.legs;
+void report(const tracking::Tracked& tracked) {
+  const gaussian_process::GaitKernel& legs = tracked.summary.prior.legs;
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
              "stride {}, noise of the marks {:.1f} px, flow believed on {:.0f} % of the unmarked "
              "points\n",
-             tracked.summary.marked_frames, t.frames.front().frame, t.frames.back().frame,
-             tracked.summary.marked_frames < static_cast<int>(kFewestFrames)
+             tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
+             tracked.summary.labelled_frames < static_cast<int>(kFewestFrames)
                  ? "period not known"
                  : fmt::format("period {:.3f} s", legs.period_s),
-             legs.noise_px, 100 * tracked.summary.believed);
-  if (const std::string doubt = doubt_of_period(legs.period_s); !doubt.empty())
+             legs.noise_px, 100 * tracked.summary.inlier);
+  if (const std::string doubt = tracking::doubt_of_period(legs.period_s); !doubt.empty())
     fmt::print(stderr, "warning: {}\n", doubt);
   std::vector<double> residuals;
   for (const TrajectoryFrame& frame : t.frames)
@@ -136,11 +136,12 @@ void check_files(const Request& request) {
 void run(Request request) {
   check_files(request);
   if (!request.score.empty()) {
-    fmt::print("{}", table_of(score_tracking(request.video, request.score)));
+    fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
     return;
   }
-  const Marked marked = is_detected(request) ? detected(request) : clicked(request);
-  const std::size_t frames = marked.marks.frames.size();
+  const tracking::LabelledClip labelled =
+      is_detected(request) ? detected(request) : clicked(request);
+  const std::size_t frames = labelled.marks.frames.size();
   require(frames != 1, "one frame is marked: that tells no motion; mark {} or more", kFewestFrames);
   if (frames < kFewestFrames)
     fmt::print(stderr,
@@ -149,24 +150,25 @@ void run(Request request) {
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
-  WatchOptions watching;
+  video::DecodeOptions watching;
   watching.progress = show_progress;
-  watching.sights = request.track.flow;
-  if (marked.slow_motion == 1) {
-    const VideoInfo info = Video(request.video).info();
-    if (const std::string doubt = doubt_of_rates(info.capture_rate_hz, info.rate_hz);
+  watching.crops = request.track.flow;
+  if (labelled.slow_motion == 1) {
+    const video::VideoInfo info = video::Video(request.video).info();
+    if (const std::string doubt = tracking::doubt_of_rates(info.capture_rate_hz, info.rate_hz);
         !doubt.empty())
       fmt::print(stderr, "warning: {}\n", doubt);
   }
-  const Tracked tracked = track(request.video, marked, request.track, watching);
+  const tracking::Tracked tracked =
+      tracking::track(request.video, labelled, request.track, watching);
   report(tracked);
 
   if (!request.overlay.empty()) {
-    write_overlay(request.video, tracked.trajectory, request.overlay);
+    video::write_overlay(request.video, tracked.trajectory, request.overlay);
     fmt::print("{}\n", request.overlay.string());
   }
   if (!request.export_to.empty()) {
-    export_points(tracked.trajectory, request.export_to);
+    imports::export_points(tracked.trajectory, request.export_to);
     fmt::print("{}\n", request.export_to.string());
   }
   const fs::path out = trajectory_file(request);
@@ -186,8 +188,8 @@ void add_track_command(CLI::App& app) {
                      "clicks (default: NAME.keypoints.json beside the video)");
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
-  add_import_options(command, request->import);
-  add_pose_options(command, request->pose);
+  imports::add_import_options(command, request->import);
+  pose::add_pose_options(command, request->pose);
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_option("-o,--out", request->out,

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "calibrate/calibrated.h"
+#include "calibrate/runner/calibrated.h"
 #include "shaping/potential.h"
 
 namespace stride {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
 namespace stride {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "extract/error.h"
-#include "extract/file.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
 #include "extract/io/file_kind.h"
 #include "shaping/potential.h"
 

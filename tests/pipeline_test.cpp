@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "calibrate/sagittal_model.h"
-#include "extract/table.h"
-#include "shaping/convert.h"
+#include "calibrate/runner/sagittal_model.h"
+#include "extract/io/table.h"
+#include "shaping/pipeline/convert.h"
 #include "shaping/potential.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,10 +53,10 @@ double rms_px(const Trajectory& tracked, const Trajectory& truth, BodyPart part)
 
 TEST(Pipeline, MakesThePotentialOfTheRunnerFromHisVideo) {
   const TemporaryFolder folder;
-  ConvertOptions options;
+  pipeline::ConvertOptions options;
   options.out = folder.path();
   options.pictures = false;
-  const auto results = convert({kVideos / "human.mp4"}, options);
+  const auto results = pipeline::convert({kVideos / "human.mp4"}, options);
   ASSERT_EQ(results.size(), 1u);
   ASSERT_FALSE(results[0].failed) << results[0].verdict;
 
@@ -70,7 +70,7 @@ TEST(Pipeline, MakesThePotentialOfTheRunnerFromHisVideo) {
   EXPECT_NEAR(run.metres_per_pixel / truth.meta_number("metres_per_pixel"), 1, 0.02);
   EXPECT_NEAR(run.period_s / truth.meta_number("period_s"), 1, 0.005);
   EXPECT_NEAR(run.speed_m_s / truth.meta_number("speed_m_s"), 1, 0.03);
-  const SagittalModel model = sagittal_model(load_osim(default_model_file()));
+  const SagittalModel model = sagittal_model(osim::load_osim(osim::default_model_file()));
   for (const BodyPart part :
        {BodyPart::knee_r, BodyPart::ankle_r, BodyPart::knee_l, BodyPart::ankle_l})
     EXPECT_LT(rms_m(run, truth, model, part), 0.018) << name(part);

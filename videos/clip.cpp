@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "extract/error.h"
-#include "extract/random.h"
+#include "extract/io/error.h"
+#include "extract/io/random.h"
 
 namespace stride::videos {
 namespace {

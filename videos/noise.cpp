@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "extract/random.h"
+#include "extract/io/random.h"
 
 namespace stride::videos {
 namespace {

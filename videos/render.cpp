@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "extract/error.h"
-#include "extract/random.h"
+#include "extract/io/error.h"
+#include "extract/io/random.h"
 #include "videos/costume.h"
 #include "videos/scene.h"
 

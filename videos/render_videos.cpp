@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 #include "videos/render.h"
 #include "videos/sheet.h"
 #include "videos/truth.h"

@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "extract/error.h"
-#include "extract/keypoints.h"
-#include "extract/video.h"
+#include "extract/io/error.h"
+#include "extract/skeleton/keypoints.h"
+#include "extract/video/video.h"
 
 namespace stride::videos {
 namespace {
@@ -57,8 +57,8 @@ void write_sheet(const std::vector<Clip>& clips, const std::filesystem::path& fo
     const Keypoints keypoints = load_keypoints(keypoints_file_of(file));
     std::vector<int> numbers;
     for (const auto& [number, frame] : keypoints.frames) numbers.push_back(number);
-    Video video(file);
-    VideoFrame frame;
+    video::Video video(file);
+    video::VideoFrame frame;
     int column = 0;
     while (column < kColumns && video.read(frame)) {
       if (frame.index != numbers[kFirst + column]) continue;

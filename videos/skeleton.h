@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "extract/body_part.h"
+#include "extract/skeleton/body_part.h"
 #include "videos/gait.h"
 
 namespace stride::videos {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "extract/file.h"
-#include "extract/random.h"
+#include "extract/io/file.h"
+#include "extract/io/random.h"
 
 namespace stride::videos {
 namespace {

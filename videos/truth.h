@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "extract/keypoints.h"
-#include "extract/table.h"
-#include "extract/trajectory.h"
+#include "extract/io/table.h"
+#include "extract/skeleton/keypoints.h"
+#include "extract/skeleton/trajectory.h"
 #include "videos/clip.h"
 
 namespace stride::videos {

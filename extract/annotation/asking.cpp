@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stride {
+namespace stride::annotation {
 
 std::vector<BodyPart> asking_order(const std::string& near_leg, bool hips, bool head) {
   const std::array<BodyPart, 4> right{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
@@ -75,4 +75,4 @@ double stride_from_crossings(const Trajectory& trajectory) {
   return halves[halves.size() / 2] + halves[(halves.size() - 1) / 2];
 }
 
-}  // namespace stride
+}  // namespace stride::annotation

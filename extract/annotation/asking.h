@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "extract/keypoints.h"
-#include "extract/trajectory.h"
+#include "extract/skeleton/keypoints.h"
+#include "extract/skeleton/trajectory.h"
 
-namespace stride {
+namespace stride::annotation {
 
 /// In which order the parts of a frame are asked for: pelvis, the near leg downwards, the far leg
 /// downwards, then what is asked for on request.
@@ -31,4 +31,4 @@ int next_phase_frame(const Keypoints& keypoints, int frame, double step_frames);
 /// them. 0 with fewer than two crossings.
 double stride_from_crossings(const Trajectory& trajectory);
 
-}  // namespace stride
+}  // namespace stride::annotation

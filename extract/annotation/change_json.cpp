@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
-namespace stride {
+namespace stride::annotation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -96,4 +96,4 @@ Change change_of(const std::string& line, const std::string& where) {
   }
 }
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -4,7 +4,7 @@
 
 #include "extract/annotation/document.h"
 
-namespace stride {
+namespace stride::annotation {
 
 /// A change as one line of JSON, and back. Numbers read back exactly.
 std::string line_of(const Change& change);
@@ -12,4 +12,4 @@ std::string line_of(const Change& change);
 /// Throws Error, beginning with `where`, if the line is not one of ours.
 Change change_of(const std::string& line, const std::string& where);
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/median.h"
+#include "extract/io/statistics.h"
 
-namespace stride {
+namespace stride::annotation {
 namespace {
 
 constexpr double kBand = 0.12;
@@ -61,7 +61,7 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by) {
   std::optional<int> worst;
-  constexpr double kBelieved = 0.3;  // at most that: only the prior speaks
+  constexpr double kPriorOnlyConfidence = 0.3;  // at most that: only the prior speaks
   double least = 1;
   for (const TrajectoryFrame& frame : prediction.frames) {
     const auto near = keypoints.frames.lower_bound(frame.frame - 2);
@@ -73,7 +73,7 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
       worst_part = std::min(worst_part, frame[part].confidence);
     }
     const double mean = sum / static_cast<double>(parts.size());
-    if (worst_part <= kBelieved && mean < least) {
+    if (worst_part <= kPriorOnlyConfidence && mean < least) {
       least = mean;
       worst = frame.frame;
     }
@@ -103,4 +103,4 @@ std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double st
   return FloorLine{{left, line[0] + line[1] * left}, {right, line[0] + line[1] * right}};
 }
 
-}  // namespace stride
+}  // namespace stride::annotation

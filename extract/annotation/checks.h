@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "extract/keypoints.h"
-#include "extract/trajectory.h"
+#include "extract/skeleton/keypoints.h"
+#include "extract/skeleton/trajectory.h"
 
-namespace stride {
+namespace stride::annotation {
 
 struct BoneWarning {
   BodyPart from, to;
@@ -33,4 +33,4 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
 /// the picture (less than a tenth of its width apart), as on a treadmill.
 std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames);
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace stride {
+namespace stride::annotation {
 
 ClipSettings settings_of(const Keypoints& k) {
   return {k.direction, k.near_leg, k.slow_motion, k.treadmill, k.trim, k.floor, k.notes};
@@ -79,4 +79,4 @@ std::optional<Change> AnnotationDocument::take(std::vector<Change>& from, std::v
 std::optional<Change> AnnotationDocument::undo() { return take(undo_, redo_); }
 std::optional<Change> AnnotationDocument::redo() { return take(redo_, undo_); }
 
-}  // namespace stride
+}  // namespace stride::annotation

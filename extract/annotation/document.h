@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "extract/keypoints.h"
+#include "extract/skeleton/keypoints.h"
 
-namespace stride {
+namespace stride::annotation {
 
 /// What a person says of the whole clip: the part of Keypoints that is not clicks.
 struct ClipSettings {
@@ -61,4 +61,4 @@ class AnnotationDocument {
   int revision_ = 0;
 };
 
-}  // namespace stride
+}  // namespace stride::annotation

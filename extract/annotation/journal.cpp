@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "extract/annotation/change_json.h"
-#include "extract/error.h"
-#include "extract/file.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
 
-namespace stride {
+namespace stride::annotation {
 namespace fs = std::filesystem;
 namespace {
 
@@ -237,4 +237,4 @@ void fold_left_over_journal(const fs::path& keypoints_file) {
   const AnnotationJournal journal(keypoints_file, Keypoints());
 }
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -6,7 +6,7 @@
 
 #include "extract/annotation/document.h"
 
-namespace stride {
+namespace stride::annotation {
 
 /// An annotation that is on disk at every moment. Each edit is a line at the end of
 /// NAME.keypoints.journal, flushed to the disk before the call returns; fold() puts the whole into
@@ -62,4 +62,4 @@ void fold_left_over_journal(const std::filesystem::path& keypoints_file);
 
 std::filesystem::path journal_file_of(const std::filesystem::path& keypoints_file);
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "extract/error.h"
-#include "extract/file.h"
-#include "extract/leg_identity.h"
-#include "extract/median.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/statistics.h"
+#include "extract/tracking/leg_identity.h"
 #include "extract/tracking/picture_check.h"
 
-namespace stride {
+namespace stride::tracking {
 namespace fs = std::filesystem;
 namespace {
 
@@ -19,9 +19,9 @@ void warn(fmt::format_string<Args...> message, Args&&... args) {
   fmt::print(stderr, "warning: {}\n", fmt::format(message, std::forward<Args>(args)...));
 }
 
-Trajectory marks_of(const Detections& detections) {
+Trajectory marks_of(const imports::Detections& detections) {
   Trajectory marks;
-  for (const ImportedFrame& imported : detections.frames) {
+  for (const imports::ImportedFrame& imported : detections.frames) {
     TrajectoryFrame& frame = marks.frames.emplace_back();
     frame.frame = imported.frame;
     frame.points = imported.points;
@@ -49,11 +49,11 @@ double scaled(double at, int from_px, int to_px) {
 }
 
 /// From the size that the user or the file says to the video's.
-void scale(const Detections& detections, const ImportOptions& said, const VideoInfo& info,
-           Trajectory& marks) {
+void scale(const imports::Detections& detections, const imports::ImportOptions& said,
+           const video::VideoInfo& info, Trajectory& marks) {
   std::string from;
   for (std::size_t i = 0; i < marks.frames.size(); ++i) {
-    const ImportedFrame& imported = detections.frames[i];
+    const imports::ImportedFrame& imported = detections.frames[i];
     const bool is_said = said.size_px.size() == 2;
     const int width = is_said ? said.size_px[0] : imported.width_px,
               height = is_said ? said.size_px[1] : imported.height_px;
@@ -76,7 +76,7 @@ void scale(const Detections& detections, const ImportOptions& said, const VideoI
 }
 
 /// Frames as the video counts them.
-void renumber(const Detections& detections, const ImportOptions& said, int frames,
+void renumber(const imports::Detections& detections, const imports::ImportOptions& said, int frames,
               Trajectory& marks) {
   const int last = marks.frames.back().frame;
   int first = said.first_frame.value_or(0);
@@ -96,7 +96,7 @@ void renumber(const Detections& detections, const ImportOptions& said, int frame
 }
 
 /// Coordinates that are no pixels of this picture; a few points outside it are left out.
-void check_places(const VideoInfo& info, Trajectory& marks) {
+void check_places(const video::VideoInfo& info, Trajectory& marks) {
   constexpr double kFew = 0.1;
   int points = 0, outside = 0;
   double largest = 0;
@@ -143,7 +143,8 @@ double knees_below_px(const Trajectory& marks) {
   return below.empty() ? 0 : median(std::move(below));
 }
 
-void check_y_up(const ImportOptions& said, const VideoInfo& info, const Trajectory& marks) {
+void check_y_up(const imports::ImportOptions& said, const video::VideoInfo& info,
+                const Trajectory& marks) {
   if (said.y_up_height_px == 0) return;
   require(said.y_up_height_px == info.height_px,
           "--y-up {}: must be the height of the video, {} px", said.y_up_height_px, info.height_px);
@@ -162,7 +163,7 @@ void check_cover(int frames, const Trajectory& marks) {
   if (before > many) warn("no points on the first {} of {} frames", before, frames);
 }
 
-void check_motion(const Trajectory& marks, const Glimpses& glimpses, const VideoInfo& info) {
+void check_motion(const Trajectory& marks, const Glimpses& glimpses, const video::VideoInfo& info) {
   const PictureCheck check = check_with_picture(marks, glimpses.all(), info);
   if (!is_beside_the_picture(check)) return;
   warn("the points do not follow the picture: only {:.0f} % of them go where it goes; {}",
@@ -195,25 +196,25 @@ Trajectory repaired(const Trajectory& marks) {
 
 }  // namespace
 
-Marked points_on(const fs::path& file, const Detections& detections,
-                 const PointsOnVideoOptions& options) {
+LabelledClip points_on(const fs::path& file, const imports::Detections& detections,
+                       const PointsOnVideoOptions& options) {
   for (const std::string& warning : detections.warnings) warn("{}", warning);
   const std::string hash = sha256_of_file(file);
   require(detections.video_sha256.empty() || detections.video_sha256 == hash,
           "{}: belongs to another video ({}, by its hash); give that one, or take the line "
           "video_sha256 out",
           detections.file, detections.video);
-  Marked marked{marks_of(detections), options.slow_motion};
-  Trajectory& marks = marked.marks;
+  LabelledClip labelled{marks_of(detections), options.slow_motion};
+  Trajectory& marks = labelled.marks;
 
-  Video video(file, options.slow_motion);
+  video::Video decoder(file, options.slow_motion);
   Glimpses glimpses(marks);
   std::vector<double> times_s;
-  for (VideoFrame frame; video.read(frame);) {
+  for (video::VideoFrame frame; decoder.read(frame);) {
     glimpses.add(frame);
     times_s.push_back(frame.time_s);
   }
-  const VideoInfo& info = video.info();
+  const video::VideoInfo& info = decoder.info();
   scale(detections, options.import, info, marks);
   check_y_up(options.import, info, marks);
   renumber(detections, options.import, static_cast<int>(times_s.size()), marks);
@@ -232,7 +233,7 @@ Marked points_on(const fs::path& file, const Detections& detections,
   if (options.repair_legs && !labels) marks = repaired(marks);
   marks.direction = facing(marks);
   marks.video = file.filename().string();
-  return marked;
+  return labelled;
 }
 
-}  // namespace stride
+}  // namespace stride::tracking

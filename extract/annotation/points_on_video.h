@@ -2,15 +2,15 @@
 
 #include <filesystem>
 
-#include "extract/import.h"
-#include "extract/marked.h"
+#include "extract/annotation/labelled_clip.h"
+#include "extract/import/import.h"
 
-namespace stride {
+namespace stride::tracking {
 
 struct PointsOnVideoOptions {
-  double slow_motion = 1;   // seconds of video a second of the runner
-  bool repair_legs = true;  // of a detector's points, which are on most frames
-  ImportOptions import;     // what the user said of the file
+  double slow_motion = 1;         // seconds of video a second of the runner
+  bool repair_legs = true;        // of a detector's points, which are on most frames
+  imports::ImportOptions import;  // what the user said of the file
 };
 
 /// Points of another program, or of a pose model, as marks on a video: the one place where such
@@ -21,7 +21,7 @@ struct PointsOnVideoOptions {
 /// frames than there are), and otherwise told on stderr: points outside the picture, which are left
 /// out where they are few, coordinates that are no pixels, points that do not go where the picture
 /// goes, frames without points at the end, legs that were swapped.
-Marked points_on(const std::filesystem::path& video, const Detections& detections,
-                 const PointsOnVideoOptions& options);
+LabelledClip points_on(const std::filesystem::path& video, const imports::Detections& detections,
+                       const PointsOnVideoOptions& options);
 
-}  // namespace stride
+}  // namespace stride::tracking

@@ -4,9 +4,9 @@
 #include <opencv2/highgui.hpp>
 #include <utility>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
-namespace stride {
+namespace stride::annotation {
 namespace fs = std::filesystem;
 
 QtZoom::QtZoom(std::string title) : title_(std::move(title)) {
@@ -39,4 +39,4 @@ void QtZoom::show(const cv::Mat& picture) {
   cv::imshow(title_, shown);
 }
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-namespace stride {
+namespace stride::annotation {
 
 /// Qt's window magnifies the whole canvas at every turn of the wheel, after the mouse callback has
 /// been told of it, and highgui cannot turn that off. What it can do is save how a window looks and
@@ -30,4 +30,4 @@ class QtZoom {
   bool changed_ = false, odd_ = false;
 };
 
-}  // namespace stride
+}  // namespace stride::annotation

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "extract/error.h"
-#include "extract/trimmed.h"
+#include "extract/io/error.h"
+#include "extract/io/trimmed.h"
 
 namespace stride {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
 namespace stride {
 namespace {

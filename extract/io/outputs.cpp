@@ -1,6 +1,6 @@
 #include "extract/io/outputs.h"
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
 namespace stride {
 namespace fs = std::filesystem;

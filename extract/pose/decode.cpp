@@ -8,9 +8,9 @@
 #include <opencv2/dnn.hpp>
 #include <span>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
-namespace stride {
+namespace stride::pose {
 namespace {
 
 /// The shape of a network's output, for messages.
@@ -117,4 +117,4 @@ std::vector<PosePerson> decode_yolo_pose(const cv::Mat& rows, int keypoints, dou
   return people;
 }
 
-}  // namespace stride
+}  // namespace stride::pose

@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-namespace stride {
+namespace stride::pose {
 
 /// A keypoint in pixels of the network's input.
 struct Keypoint {
@@ -33,4 +33,4 @@ PosePerson decode_simcc(const cv::Mat& x, const cv::Mat& y, cv::Size input_px, i
 std::vector<PosePerson> decode_yolo_pose(const cv::Mat& rows, int keypoints, double min_confidence,
                                          double overlap = 0.45);
 
-}  // namespace stride
+}  // namespace stride::pose

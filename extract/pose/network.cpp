@@ -4,9 +4,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
-namespace stride {
+namespace stride::pose {
 namespace {
 
 constexpr const char* kCure =
@@ -145,4 +145,4 @@ std::vector<PosePerson> PoseNetwork::find(const cv::Mat& bgr, const cv::Rect2d& 
   return people;
 }
 
-}  // namespace stride
+}  // namespace stride::pose

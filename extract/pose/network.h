@@ -8,7 +8,7 @@
 #include "extract/pose/decode.h"
 #include "extract/pose/sidecar.h"
 
-namespace stride {
+namespace stride::pose {
 
 /// A user's pose model through OpenCV's dnn module, on one core or as many as OpenCV takes.
 class PoseNetwork {
@@ -38,4 +38,4 @@ class PoseNetwork {
 cv::Mat self_check_input(int width_px, int height_px);
 std::vector<double> self_check_values(const std::vector<cv::Mat>& outputs, std::size_t count);
 
-}  // namespace stride
+}  // namespace stride::pose

@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "extract/body_part.h"
-#include "extract/error.h"
-#include "extract/toml.h"
+#include "extract/io/error.h"
+#include "extract/io/toml.h"
+#include "extract/skeleton/body_part.h"
 
-namespace stride {
+namespace stride::pose {
 namespace {
 
 constexpr std::size_t kFewestCheckValues = 16;
@@ -136,4 +136,4 @@ PoseSidecar load_pose_sidecar(const std::filesystem::path& file) {
   return sidecar;
 }
 
-}  // namespace stride
+}  // namespace stride::pose

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace stride {
+namespace stride::pose {
 
 /// How the numbers that come out of a network are read (decode.h).
 enum class PoseDecoder { heatmap, simcc, yolo_pose };
@@ -34,4 +34,4 @@ struct PoseSidecar {
 /// Throws Error naming the file, the key, the value and what was expected.
 PoseSidecar load_pose_sidecar(const std::filesystem::path& file);
 
-}  // namespace stride
+}  // namespace stride::pose

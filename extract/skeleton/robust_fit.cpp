@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/median.h"
+#include "extract/io/statistics.h"
 
 namespace stride {
 
@@ -21,7 +21,7 @@ RobustFit robust_fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals
     fit.spread = std::max(least_spread, median({distance.begin(), distance.end()}));
     robust = weights.array() / (1 + (distance / (2 * fit.spread)).array().square());
   }
-  fit.surprise = (weights.array() *
+  fit.negative_log_likelihood = (weights.array() *
                   (std::log(fit.spread) + (distance / (2 * fit.spread)).array().square().log1p()))
                      .sum();
   return fit;

@@ -8,7 +8,7 @@ namespace stride {
 struct RobustFit {
   Eigen::MatrixXd coefficients;  // a column a signal
   double spread = 0;             // median distance of a row from the fit
-  double surprise = 0;           // −log likelihood without constants
+  double negative_log_likelihood = 0;           // −log likelihood without constants
 };
 
 /// `weights` of the rows, 0 … 1; `least_spread`: no row is believed to be better.

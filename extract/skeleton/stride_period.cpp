@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "extract/median.h"
+#include "extract/io/statistics.h"
 #include "extract/skeleton/robust_fit.h"
 
 namespace stride {
@@ -132,7 +132,7 @@ std::vector<StridePeriod> scan(const std::vector<Signals>& seen, const PeriodBou
        // Less than a twentieth of a cycle from the first frame to the last.
        period_s *= 1 + std::clamp(0.05 * period_s / duration_s, 0.002, 0.015)) {
     double cost = period_improbability(period_s);
-    for (const Signals& signals : seen) cost += fit_at(signals, period_s).surprise;
+    for (const Signals& signals : seen) cost += fit_at(signals, period_s).negative_log_likelihood;
     tried.push_back({period_s, cost});
   }
   return tried;

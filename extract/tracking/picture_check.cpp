@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-namespace stride {
+namespace stride::tracking {
 namespace {
 
 using Eigen::Vector2d;
@@ -63,7 +63,7 @@ PictureCheck compared(const std::map<int, const TrajectoryFrame*>& frames,
   return check;
 }
 
-std::vector<Remedy> remedies(const VideoInfo& info) {
+std::vector<Remedy> remedies(const video::VideoInfo& info) {
   std::vector<Remedy> all;
   const double w = info.width_px, h = info.height_px;
   for (const double factor : {0.5, 2.0, 2.0 / 3, 1.5, 0.75, 4.0 / 3, 1.0 / 3, 3.0, 0.25, 4.0})
@@ -108,7 +108,7 @@ Glimpses::Glimpses(const Trajectory& points) {
     wanted_.push_back(pairs[(2 * k + 1) * pairs.size() / (2 * count)]);
 }
 
-void Glimpses::add(const VideoFrame& frame) {
+void Glimpses::add(const video::VideoFrame& frame) {
   const auto is_wanted = [&](int first) { return std::ranges::binary_search(wanted_, first); };
   if (!is_wanted(frame.index) && !is_wanted(frame.index - 1)) return;
   const double scale = std::min(1.0, kWidth_px / std::max(frame.image.cols, frame.image.rows));
@@ -120,7 +120,7 @@ void Glimpses::add(const VideoFrame& frame) {
 }
 
 PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glimpse>& given,
-                                const VideoInfo& info) {
+                                const video::VideoInfo& info) {
   std::vector<Glimpse> glimpses;
   for (const Glimpse& glimpse : given)
     if (!glimpse.second.empty()) glimpses.push_back(glimpse);
@@ -142,4 +142,4 @@ bool is_beside_the_picture(const PictureCheck& check) {
   return check.compared >= kFewest && check.follow < kLeastFollow;
 }
 
-}  // namespace stride
+}  // namespace stride::tracking

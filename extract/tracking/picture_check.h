@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "extract/trajectory.h"
-#include "extract/video.h"
+#include "extract/skeleton/trajectory.h"
+#include "extract/video/video.h"
 
-namespace stride {
+namespace stride::tracking {
 
 /// Pairs of neighbouring frames of a video, small and grey.
 struct Glimpse {
@@ -21,7 +21,7 @@ struct Glimpse {
 class Glimpses {
  public:
   explicit Glimpses(const Trajectory& points);
-  void add(const VideoFrame& frame);
+  void add(const video::VideoFrame& frame);
   const std::vector<Glimpse>& all() const { return glimpses_; }
 
  private:
@@ -39,10 +39,10 @@ struct PictureCheck {
 /// Points of another size, turned, upside down, cropped, or of other frames lie beside the limbs
 /// that they name. `info` is the video's.
 PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glimpse>& glimpses,
-                                const VideoInfo& info);
+                                const video::VideoInfo& info);
 
 /// Whether enough was compared, and so little of it follows that the points cannot be the
 /// picture's.
 bool is_beside_the_picture(const PictureCheck& check);
 
-}  // namespace stride
+}  // namespace stride::tracking

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stride {
+namespace stride::tracking {
 
 std::optional<double> likely_slow_motion(double period_s, double shortest_s, double longest_s) {
   constexpr double kUsual_s = 0.71;  // of runners
@@ -39,4 +39,4 @@ std::string doubt_of_rates(double capture_rate_hz, double rate_hz) {
   return {};
 }
 
-}  // namespace stride
+}  // namespace stride::tracking

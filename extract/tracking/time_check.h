@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace stride {
+namespace stride::tracking {
 
 /// By how much a clip plays too slowly (above 1) or too fast, if its stride takes longer or shorter
 /// than people's do: `shortest_s` to `longest_s`. In halves above 1, for a person to recognise the
@@ -18,4 +18,4 @@ std::string doubt_of_period(double period_s, double shortest_s = 0.4, double lon
 /// which it plays. Empty if nothing is odd.
 std::string doubt_of_rates(double capture_rate_hz, double rate_hz);
 
-}  // namespace stride
+}  // namespace stride::tracking

@@ -11,7 +11,7 @@ extern "C" {
 #include <cstring>
 #include <memory>
 
-namespace stride {
+namespace stride::video {
 namespace {
 
 struct Close {
@@ -84,4 +84,4 @@ std::string text_of(const Turn& turn) {
   return turn.mirror_x ? "turned by 90 degrees" : "turned by 270 degrees";
 }
 
-}  // namespace stride
+}  // namespace stride::video

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-namespace stride {
+namespace stride::video {
 
 /// How stored frames are turned to stand upright: first transposed, then mirrored.
 struct Turn {
@@ -31,4 +31,4 @@ std::string ffmpeg_name(const std::filesystem::path& file);
 /// In degrees clockwise, for a person: "turned by 90 degrees", "mirrored"; empty: upright.
 std::string text_of(const Turn& turn);
 
-}  // namespace stride
+}  // namespace stride::video

@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "extract/annotation/asking.h"
-#include "extract/annotation_session.h"
-#include "extract/video_writer.h"
+#include "extract/annotation/session/session.h"
+#include "extract/video/video_writer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace stride {
@@ -20,7 +20,7 @@ std::filesystem::path long_clip(const TemporaryFolder& folder) {
   cv::RNG random(1);
   random.fill(coarse, cv::RNG::UNIFORM, 0, 255);
   cv::resize(coarse, image, {kWidth, kHeight}, 0, 0, cv::INTER_CUBIC);
-  VideoWriter writer(file, 30);
+  video::VideoWriter writer(file, 30);
   for (int i = 0; i < kFrames; ++i) writer.write(image);
   writer.finish();
   return file;
@@ -33,7 +33,7 @@ Eigen::Vector2d place(int frame, BodyPart part) {
 }
 
 /// Every phase frame clicked, every frame tracked.
-Keypoints clicked(const VideoInfo& info) {
+Keypoints clicked(const video::VideoInfo& info) {
   Keypoints keypoints;
   keypoints.video = "clip.mp4";
   keypoints.video_sha256 = "00";
@@ -42,14 +42,14 @@ Keypoints clicked(const VideoInfo& info) {
   keypoints.direction = keypoints.near_leg = "right";
   for (int frame = 0; frame < kFrames - 5; frame += kStride / 8) {
     keypoints.frames[frame].time_s = frame / 30.0;
-    for (const BodyPart part : asking_order("right", false, false))
+    for (const BodyPart part : annotation::asking_order("right", false, false))
       keypoints.frames[frame][part] = Click{place(frame, part), ClickState::seen, ""};
   }
   return keypoints;
 }
 
-Prediction tracked() {
-  Prediction prediction;
+annotation::Prediction tracked() {
+  annotation::Prediction prediction;
   prediction.stride_frames = kStride;
   for (int i = 0; i < kFrames; ++i) {
     TrajectoryFrame& frame = prediction.trajectory.frames.emplace_back();
@@ -64,25 +64,26 @@ Prediction tracked() {
 void click_to_picture(benchmark::State& state, const cv::Size& canvas_px, bool other_frame) {
   cv::setNumThreads(1);
   static const TemporaryFolder folder;
-  static FrameStore frames(long_clip(folder));
+  static video::FrameStore frames(long_clip(folder));
   frames.wait();
   const TemporaryFolder clicks;
-  AnnotationJournal journal(clicks / "clip.keypoints.json", clicked(frames.info()));
-  AnnotationOptions options;
+  annotation::AnnotationJournal journal(clicks / "clip.keypoints.json", clicked(frames.info()));
+  annotation::AnnotationOptions options;
   options.canvas_px = canvas_px;
-  AnnotationSession session(journal, frames, options);
+  annotation::AnnotationSession session(journal, frames, options);
   session.set_prediction(tracked());
   int n = 0;
   for (auto _ : state) {
     if (other_frame) session.go_to(n % 2 == 0 ? 150 : 155);
-    AnnotationEvent event;
+    annotation::AnnotationEvent event;
     event.p_canvas = session.view().to_canvas({300.0 + n % 50, 300.0});
     ++n;
-    AnnotationEvent digit;
-    digit.kind = AnnotationEvent::Kind::key;
+    annotation::AnnotationEvent digit;
+    digit.kind = annotation::AnnotationEvent::Kind::key;
     digit.key = '1';
     session.handle(digit);
-    for (const auto kind : {AnnotationEvent::Kind::press, AnnotationEvent::Kind::release}) {
+    for (const auto kind :
+         {annotation::AnnotationEvent::Kind::press, annotation::AnnotationEvent::Kind::release}) {
       event.kind = kind;
       session.handle(event);
     }

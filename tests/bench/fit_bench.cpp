@@ -8,19 +8,19 @@ namespace stride {
 namespace {
 
 struct FiveSeconds {
-  SagittalModel model = sagittal_model(load_osim(default_model_file()));
+  SagittalModel model = sagittal_model(osim::load_osim(osim::default_model_file()));
   Trajectory trajectory =
       synthetic_trajectory(synthetic_runner(), model, {.duration_s = 5, .noise_px = 1.5});
-  Marks marks = observe(trajectory, false);
+  fit::Marks marks = fit::observe(trajectory, false);
 };
 
 void fit(benchmark::State& loop, bool numeric_derivatives) {
   const FiveSeconds clip;
-  FitOptions options;
+  fit::FitOptions options;
   options.numeric_derivatives = numeric_derivatives;
   int iterations = 0;
   for (auto _ : loop) {
-    const StrideFit fit = fit_stride(clip.marks, clip.model, options);
+    const fit::StrideFit fit = fit::fit_stride(clip.marks, clip.model, options);
     benchmark::DoNotOptimize(fit.runner);
     iterations = fit.iterations;
   }

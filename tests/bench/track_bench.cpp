@@ -3,7 +3,7 @@
 #include <opencv2/core/utility.hpp>
 #include <string>
 
-#include "extract/marked.h"
+#include "extract/annotation/labelled_clip.h"
 
 namespace stride {
 namespace {
@@ -13,13 +13,13 @@ namespace {
 void track_clip(benchmark::State& state, const char* name, bool toes) {
   cv::setNumThreads(1);
   const std::filesystem::path video = STRIDE_SOURCE_DIR "/videos/" + std::string(name) + ".mp4";
-  Marked marked = clicks_on(video, keypoints_file_of(video), 0);
+  tracking::LabelledClip labelled = tracking::clicks_on(video, keypoints_file_of(video), 0);
   if (!toes)
-    for (TrajectoryFrame& frame : marked.marks.frames)
+    for (TrajectoryFrame& frame : labelled.marks.frames)
       frame[BodyPart::toe_r] = frame[BodyPart::toe_l] = Point();
   double seconds = 0;
   for (auto _ : state) {
-    const Trajectory tracked = track(video, marked).trajectory;
+    const Trajectory tracked = tracking::track(video, labelled).trajectory;
     seconds += static_cast<double>(tracked.frames.size()) / tracked.rate_hz;
   }
   state.counters["real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/error.h"
-#include "extract/marked.h"
+#include "extract/annotation/labelled_clip.h"
+#include "extract/io/error.h"
 #include "tests/calibrate/rendered.h"
 #include "videos/truth.h"
 
@@ -28,7 +28,7 @@ Trajectory tracked(const videos::Clip& clip, unsigned seed) {
   videos::Clip clicked = clip;
   clicked.click_seed = seed;
   const Keypoints clicks = videos::clicks(clicked);
-  return track(video, {marks_of(clicks), clicks.slow_motion}).trajectory;
+  return tracking::track(video, {tracking::marks_of(clicks), clicks.slow_motion}).trajectory;
 }
 
 /// Mean, and greatest size, of a number of every fit.
@@ -62,7 +62,7 @@ void measure(const Options& options, const std::string& name, const SagittalMode
         options.from == "video"
             ? tracked(clip, seed)
             : observed(clip, {options.from == "frames", clip.click_sd_px, seed});
-    FitOptions fit;
+    fit::FitOptions fit;
     if (options.known_leg) fit.leg_m = known_leg(clip, seed);
     const Calibration found = calibrate(trajectory, model, fit);
     if (found.verdict.refused)
@@ -105,7 +105,8 @@ int main(int argc, char** argv) try {
   app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");
   app.add_flag("--known-leg", options.known_leg, "the leg's length is given, to 2 %");
   CLI11_PARSE(app, argc, argv);
-  const auto model = stride::sagittal_model(stride::load_osim(stride::default_model_file()));
+  const auto model =
+      stride::sagittal_model(stride::osim::load_osim(stride::osim::default_model_file()));
   fmt::print(
       "clip       fits  period, %     scale, %      speed, %      roll, deg     worst rms, cm "
       "inside: coords, period, scale  worst seed\n"

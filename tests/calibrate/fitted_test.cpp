@@ -21,7 +21,7 @@ Trajectory clicked(const char* clip) {
 TEST(Fitted, PutsTheRunnerNearTheTruthInEveryFrame) {
   for (const char* name : {"human", "left"}) {
     const Trajectory truth = videos::truth_px(videos::clip(name)), marks = clicked(name);
-    const SagittalModel model = sagittal_model(load_osim(default_model_file()));
+    const SagittalModel model = sagittal_model(osim::load_osim(osim::default_model_file()));
     const Trajectory fitted = fitted_px(marks, model, calibrate(marks, model));
     ASSERT_EQ(fitted.frames.size(), truth.frames.size());
     double squared = 0;
@@ -40,7 +40,7 @@ TEST(Fitted, PutsTheRunnerNearTheTruthInEveryFrame) {
 }
 
 TEST(Fitted, IsTheLessConfidentTheLessIsKnown) {
-  const SagittalModel model = sagittal_model(load_osim(default_model_file()));
+  const SagittalModel model = sagittal_model(osim::load_osim(osim::default_model_file()));
   const Trajectory marks = clicked("human");
   Trajectory few = marks;
   few.frames.resize(marks.frames.size() / 3);

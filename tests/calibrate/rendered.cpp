@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "extract/random.h"
-#include "extract/track.h"
+#include "extract/io/random.h"
+#include "extract/tracking/track.h"
 #include "videos/truth.h"
 
 namespace stride {
@@ -45,13 +45,13 @@ class TrueHeight {
       const videos::Skeleton s = videos::pose(clip.gait, clip.proportions, phase, 0, 0);
       const auto leg =
           place_leg(model, s.pelvis_tilt, s.hip_flexion[0], s.knee_angle[0], s.ankle_angle[0]);
-      lowest_m_ = std::min(lowest_m_, lowest_point(model, leg) + bounce(phase));
+      lowest_m_ = std::min(lowest_m_, lowest_point(model, leg) + vertical_oscillation(phase));
     }
   }
-  double at(double phase) const { return bounce(phase) - lowest_m_; }
+  double at(double phase) const { return vertical_oscillation(phase) - lowest_m_; }
 
  private:
-  double bounce(double phase) const {
+  double vertical_oscillation(double phase) const {
     return to_model_ * (gait_.pelvis_height_m(phase) - gait_.pelvis_height_m.mean);
   }
   const videos::Gait& gait_;
@@ -69,9 +69,9 @@ Trajectory observed(const Clip& clip, const Marking& how) {
     const double x = sd * normal(random), y = sd * normal(random);
     return Eigen::Vector2d(x, y);
   };
-  Clip marked = clip;
-  marked.click_seed = how.seed;
-  const Keypoints clicked = videos::clicks(marked);
+  Clip labelled = clip;
+  labelled.click_seed = how.seed;
+  const Keypoints clicked = videos::clicks(labelled);
   Trajectory seen = truth;
   for (TrajectoryFrame& frame : seen.frames) {
     for (const BodyPart part : kBodyParts) {
@@ -111,7 +111,7 @@ Clip varied(Clip clip, unsigned seed) {
   return clip;
 }
 
-Prior known_leg(const Clip& clip, unsigned seed) {
+fit::Prior known_leg(const Clip& clip, unsigned seed) {
   constexpr double kSd = 0.02;
   Random random(seed * 7 + 1);
   const double leg_m = clip.proportions.thigh + clip.proportions.shank;

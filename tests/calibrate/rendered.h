@@ -22,7 +22,7 @@ Trajectory observed(const videos::Clip& clip, const Marking& how);
 videos::Clip varied(videos::Clip clip, unsigned seed);
 
 /// What a user may know: the length of the runner's leg, as wrong as it says.
-Prior known_leg(const videos::Clip& clip, unsigned seed);
+fit::Prior known_leg(const videos::Clip& clip, unsigned seed);
 
 /// A fit against the truth of its clip.
 struct Accuracy {

@@ -16,11 +16,11 @@ class Rendered : public testing::TestWithParam<Kind> {};
 
 TEST_P(Rendered, RunnersOfOtherProportionsAndCamerasAreFitted) {
   constexpr unsigned kSeeds = 4;
-  const SagittalModel model = sagittal_model(load_osim(default_model_file()));
+  const SagittalModel model = sagittal_model(osim::load_osim(osim::default_model_file()));
   int inside = 0, coordinates = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     const videos::Clip clip = varied(videos::clip(GetParam().clip), seed);
-    FitOptions options;
+    fit::FitOptions options;
     options.leg_m = known_leg(clip, seed);
     const Calibration found = calibrate(
         observed(clip, {.every_frame = false, .noise_px = clip.click_sd_px, .seed = seed}), model,

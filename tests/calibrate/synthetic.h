@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "calibrate/fit.h"
-#include "extract/trajectory.h"
+#include "calibrate/fit/fit.h"
+#include "extract/skeleton/trajectory.h"
 
 namespace stride {
 
@@ -47,7 +47,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
   std::mt19937_64 random(clip.seed);
   std::normal_distribution<double> noise(0, clip.noise_px > 0 ? clip.noise_px : 1);
   std::uniform_real_distribution<double> uniform(0, 1);
-  StrideFit truth;
+  fit::StrideFit truth;
   truth.runner = runner;
   truth.harmonics = kMaxHarmonics;
   truth.pelvis_px.resize(1);
@@ -72,7 +72,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
     for (const BodyPart part : kBodyParts) {
       const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
       if (part == BodyPart::head || (toe && !clip.toes)) continue;
-      Eigen::Vector2d p = predicted_px(truth, Directions(model), part, 0, u);
+      Eigen::Vector2d p = fit::predicted_px(truth, Directions(model), part, 0, u);
       if (clip.noise_px > 0) p += Eigen::Vector2d(noise(random), noise(random));
       if (uniform(random) < clip.outliers) {
         const double angle = 2 * std::numbers::pi * uniform(random);

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "calibrate/fitted.h"
-#include "extract/error.h"
-#include "extract/track_score.h"
+#include "extract/io/error.h"
+#include "extract/tracking/track_score.h"
 
 namespace stride {
 namespace {
@@ -21,7 +21,7 @@ fs::path truth_of(const fs::path& video) {
   throw Error(fmt::format("{}: no NAME.truth.csv beside it", video.string()));
 }
 
-void measure(const std::string& clip, ScoreOptions options, const SagittalModel& model) {
+void measure(const std::string& clip, tracking::ScoreOptions options, const SagittalModel& model) {
   const fs::path video = clip.find('/') == std::string::npos
                              ? fs::path(STRIDE_SOURCE_DIR "/videos") / (clip + ".mp4")
                              : fs::path(clip);
@@ -30,7 +30,7 @@ void measure(const std::string& clip, ScoreOptions options, const SagittalModel&
     if (!result.fit.ok) return std::nullopt;
     return fitted_px(tracked, model, result);
   };
-  for (const TrackScore& s : score_tracking(video, truth_of(video), options))
+  for (const tracking::TrackScore& s : tracking::score_tracking(video, truth_of(video), options))
     fmt::print(
         "{:<24} {} {:3.1f}  spline {:5.2f}  prior {:5.2f}  tracked {:5.2f} (gain {:4.2f})  again "
         "{:5.2f}\n",
@@ -44,14 +44,15 @@ void measure(const std::string& clip, ScoreOptions options, const SagittalModel&
 
 int main(int argc, char** argv) try {
   std::vector<std::string> clips{"human", "left", "game", "cartoon", "small", "walk"};
-  stride::ScoreOptions options;
+  stride::tracking::ScoreOptions options;
   CLI::App app("Measures tracking against the truth of rendered clips");
   app.add_option("clips", clips, "names in videos/, or video files with their truth beside them");
   app.add_option("--seeds", options.seeds, "how many sets of clicks each");
   app.add_option("--spacings", options.spacings, "frames between clicks");
   app.add_option("--noises", options.noises_px, "of the clicks, px");
   CLI11_PARSE(app, argc, argv);
-  const auto model = stride::sagittal_model(stride::load_osim(stride::default_model_file()));
+  const auto model =
+      stride::sagittal_model(stride::osim::load_osim(stride::osim::default_model_file()));
   for (const std::string& clip : clips) stride::measure(clip, options, model);
 } catch (const stride::Error& error) {
   fmt::print(stderr, "track_accuracy: {}\n", error.what());

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "extract/annotation/journal.h"
-#include "extract/file.h"
-#include "extract/trajectory.h"
+#include "extract/io/file.h"
+#include "extract/skeleton/trajectory.h"
 #include "tests/support/fuzz.h"
 
 namespace stride {

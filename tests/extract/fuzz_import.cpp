@@ -4,8 +4,8 @@
 //     build/fuzz/tests/extract/fuzz_import_read_sleap -max_total_time=600 CORPUS_FOLDER
 #include <string_view>
 
-#include "extract/import/formats.h"
-#include "extract/import/people.h"
+#include "extract/import/formats/formats.h"
+#include "extract/import/parsing/people.h"
 #include "tests/support/fuzz.h"
 
 namespace stride {

@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include "extract/commands.h"
-#include "extract/file.h"
-#include "extract/table.h"
-#include "extract/trajectory.h"
-#include "extract/video.h"
+#include "extract/io/file.h"
+#include "extract/io/table.h"
+#include "extract/skeleton/trajectory.h"
+#include "extract/video/video.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -31,7 +31,7 @@ TEST(TrackCommand, WritesTheTrajectoryBesideTheVideoAndAnOverlay) {
   EXPECT_EQ(trajectory.video, "human.mp4");
   EXPECT_EQ(trajectory.width_px, 640);
   EXPECT_EQ(trajectory.video_sha256, sha256_of_file(folder / "human.mp4"));
-  EXPECT_EQ(Video(folder / "seen.mp4").info().width_px, 640);
+  EXPECT_EQ(video::Video(folder / "seen.mp4").info().width_px, 640);
 }
 
 TEST(TrackCommand, ExportsWhatItImported) {

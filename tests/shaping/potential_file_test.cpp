@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "extract/file.h"
+#include "extract/io/file.h"
 #include "shaping/potential.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
 namespace stride {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "extract/leg_identity.h"
-#include "extract/table.h"
+#include "extract/io/table.h"
+#include "extract/tracking/leg_identity.h"
 
 namespace stride {
 
@@ -58,17 +58,17 @@ inline Spoiled spoiled(const Trajectory& truth, unsigned seed) {
       point.p_px += 3 * Eigen::Vector2d(x, y);
       if (uniform() < 0.1) point = Point();
     }
-    if (result.swapped[i]) swap_legs(result.points.frames[i]);
+    if (result.swapped[i]) tracking::swap_legs(result.points.frames[i]);
   }
   return result;
 }
 
 /// Frames that come out right.
 inline int repaired(const Spoiled& clip) {
-  const LegIdentity legs = repair_legs(clip.points);
+  const tracking::LegIdentity legs = tracking::repair_legs(clip.points);
   int right = 0;
   for (std::size_t i = 0; i < clip.swapped.size(); ++i)
-    right += clip.swapped[i] == std::ranges::any_of(legs.swaps, [&](const LegSwap& swap) {
+    right += clip.swapped[i] == std::ranges::any_of(legs.swaps, [&](const tracking::LegSwap& swap) {
                const int frame = clip.points.frames[i].frame;
                return swap.first_frame <= frame && frame <= swap.last_frame;
              });

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 
 /// The statement throws stride::Error whose message contains `text`.
 #define EXPECT_ERROR(statement, text)                                      \

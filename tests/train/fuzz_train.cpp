@@ -12,15 +12,15 @@
 #include <fstream>
 #include <string_view>
 
-#include "extract/file.h"
-#include "extract/table.h"
+#include "extract/io/file.h"
+#include "extract/io/table.h"
 #include "shaping/potential.h"
 #include "tests/support/fuzz.h"
 #include "tests/train/support/point_mass.h"
-#include "train/checkpoint.h"
-#include "train/options.h"
-#include "train/policy.h"
-#include "train/safetensors.h"
+#include "train/network/policy.h"
+#include "train/network/safetensors.h"
+#include "train/training/checkpoint.h"
+#include "train/training/options.h"
 
 namespace stride {
 namespace {

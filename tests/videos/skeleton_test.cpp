@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "extract/table.h"
+#include "extract/io/table.h"
 #include "videos/clip.h"
 #include "videos/gait.h"
 

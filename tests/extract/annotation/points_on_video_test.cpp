@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "extract/error.h"
-#include "extract/table.h"
+#include "extract/io/error.h"
+#include "extract/io/table.h"
 #include "tests/support/throws.h"
 
 namespace stride {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 #include "tests/support/throws.h"
 
 namespace stride {

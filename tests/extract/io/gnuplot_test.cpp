@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "extract/error.h"
+#include "extract/io/error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "extract/error.h"
-#include "extract/file.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 

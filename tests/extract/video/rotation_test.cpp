@@ -4,9 +4,9 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "extract/file.h"
-#include "extract/video.h"
-#include "extract/video_writer.h"
+#include "extract/io/file.h"
+#include "extract/video/video.h"
+#include "extract/video/video_writer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace stride {

@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "train/environment.h"
-#include "train/random.h"
+#include "extract/io/random.h"
+#include "train/environment/environment.h"
 
 namespace stride {
 
 /// A mass on a line that is to come to rest at 0: x″ = 4a − 2 under the action a in [0, 1], reward
 /// −x² − 0.1 v² a second. It falls off the line beyond ±2 and has 2 s of time.
-class PointMass : public Environment {
+class PointMass : public environment::Environment {
  public:
   PointMass() {
     spec_ = {
         .observation_names = {"x", "v"}, .action_names = {"push"}, .step_s = 0.05, .max_steps = 40};
   }
 
-  const EnvironmentSpec& spec() const override { return spec_; }
+  const environment::EnvironmentSpec& spec() const override { return spec_; }
 
   const Eigen::VectorXd& reset(std::uint64_t seed) override {
     Random random(seed);
@@ -27,7 +27,7 @@ class PointMass : public Environment {
     return observe();
   }
 
-  const Step& step(const Eigen::VectorXd& action) override {
+  const environment::Step& step(const Eigen::VectorXd& action) override {
     const double h = spec_.step_s;
     v_ += h * (4 * std::clamp(action[0], 0.0, 1.0) - 2);
     x_ += h * v_;
@@ -60,8 +60,8 @@ class PointMass : public Environment {
     return step_.observation;
   }
 
-  EnvironmentSpec spec_;
-  Step step_;
+  environment::EnvironmentSpec spec_;
+  environment::Step step_;
   double x_ = 0, v_ = 0;
   int steps_ = 0;
 };

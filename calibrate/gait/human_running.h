@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace stride::gait {
+
+/// How people run: sagittal angles against the stride from foot strike, rad, the mean of measured
+/// runners and the band of their strides (calibrate/data/human_running.csv names them).
+struct HumanRunning {
+  struct Joint {
+    std::vector<double> mean, low, high;  // at `phase`
+  };
+  std::vector<double> phase;  // 0 … 1
+  Joint hip, knee, ankle;
+
+  /// Linear between the samples.
+  double at(const std::vector<double>& curve, double phase) const;
+};
+
+HumanRunning load_human_running();
+
+}  // namespace stride::gait

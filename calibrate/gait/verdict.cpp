@@ -1,0 +1,353 @@
+#include "calibrate/gait/verdict.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "extract/io/statistics.h"
+#include "extract/tracking/time_check.h"
+
+namespace stride::gait {
+namespace {
+
+constexpr double kPriorOnlyConfidence =
+    0.3;  // confidence: at most that, only the tracker's prior speaks
+
+/// The distance that holds 90 % of the values.
+double spread(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[values.size() * 95 / 100] - values[values.size() * 5 / 100];
+}
+
+/// A coordinate of one part from another, where both are marked.
+std::vector<double> differences(const Trajectory& trajectory, BodyPart part, BodyPart from,
+                                int axis) {
+  std::vector<double> values;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    if (frame[part].present() && frame[from].present())
+      values.push_back(frame[part].p_px[axis] - frame[from].p_px[axis]);
+  return values;
+}
+
+double median_length(const Trajectory& trajectory, BodyPart a, BodyPart b) {
+  std::vector<double> values;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    if (frame[a].present() && frame[b].present())
+      values.push_back((frame[a].p_px - frame[b].p_px).norm());
+  return median(values);
+}
+
+void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
+  constexpr std::size_t kLeastFrames = 8;
+  const std::size_t frames = trajectory.frames.size();
+  if (frames < kLeastFrames)
+    verdict.refuse(fmt::format("{} frames: at least {} are needed", frames, kLeastFrames));
+  for (const BodyPart part : kRequiredParts) {
+    const auto seen = std::ranges::count_if(
+        trajectory.frames, [&](const TrajectoryFrame& frame) { return frame[part].present(); });
+    const auto count = static_cast<std::size_t>(seen);
+    if (count < kLeastFrames || count * 4 < frames)
+      verdict.refuse(fmt::format("{} is marked in {} of {} frames: a quarter is needed; mark it",
+                                 name(part), count, frames));
+    else if (std::ranges::none_of(trajectory.frames, [&](const TrajectoryFrame& frame) {
+               return frame[part].present() && frame[part].confidence > kPriorOnlyConfidence;
+             }))
+      verdict.refuse(fmt::format(
+          "{} is seen in no frame: what the other leg does tells nothing of it; mark it",
+          name(part)));
+  }
+}
+
+/// From the pelvis to both ankles, on average.
+Eigen::Vector2d mean_leg_px(const Trajectory& trajectory) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double n = 0;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    for (const BodyPart ankle : {BodyPart::ankle_r, BodyPart::ankle_l})
+      if (frame[ankle].present() && frame[BodyPart::pelvis].present()) {
+        sum += frame[ankle].p_px - frame[BodyPart::pelvis].p_px;
+        ++n;
+      }
+  return sum / std::max(n, 1.0);
+}
+
+/// Legs hang down from a pelvis that is between the hips.
+void judge_posture(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+  const Eigen::Vector2d leg = mean_leg_px(trajectory);
+  if (leg.y() < 0 && -leg.y() > std::abs(leg.x()))
+    verdict.refuse(
+        "knees are above the pelvis: the clip stands on its head; turn it (points whose y grows "
+        "upwards: stride track --import … --y-up)");
+  else if (std::abs(leg.x()) > std::abs(leg.y()))
+    verdict.refuse(
+        "the legs lie level: the clip, or the picture that its points were made on, is turned by "
+        "90 degrees; turn it");
+  std::vector<double> off;
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    const Point &right = frame[BodyPart::hip_r], &left = frame[BodyPart::hip_l];
+    if (right.present() && left.present() && frame[BodyPart::pelvis].present())
+      off.push_back((frame[BodyPart::pelvis].p_px - 0.5 * (right.p_px + left.p_px)).norm() /
+                    leg_px);
+  }
+  if (off.size() >= 3 && median(off) > 0.35)
+    verdict.refuse(fmt::format(
+        "the pelvis is {:.0f} % of a leg from the middle of the hips: are the points on the right "
+        "joints, or of another layout (OpenPose's BODY_25B)?",
+        100 * median(off)));
+}
+
+bool is_normalised(const Trajectory& trajectory) {
+  return std::ranges::all_of(trajectory.frames, [](const TrajectoryFrame& frame) {
+    return std::ranges::all_of(frame.points, [](const Point& point) {
+      return !point.present() || point.p_px.lpNorm<Eigen::Infinity>() <= 2;
+    });
+  });
+}
+
+/// How far the ankles swing, in legs: a runner's reach two thirds fore and aft.
+void judge_view(const Trajectory& trajectory, Verdict& verdict) {
+  double leg = 0, fore_aft = 0, vertical = 0;
+  for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
+                                    std::pair{BodyPart::knee_l, BodyPart::ankle_l}}) {
+    leg += 0.5 * (median_length(trajectory, BodyPart::pelvis, knee) +
+                  median_length(trajectory, knee, ankle));
+    fore_aft += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 0));
+    vertical += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 1));
+  }
+  if (is_normalised(trajectory)) {
+    verdict.refuse("all points lie between 0 and 2: normalised coordinates, not pixels");
+    return;
+  }
+  if (!(leg > 10)) {
+    verdict.refuse(fmt::format("legs are {:.0f} px long: ten are needed; use a larger video", leg));
+    return;
+  }
+  judge_posture(trajectory, leg, verdict);
+  if (fore_aft < 0.3 * leg && vertical < 0.12 * leg)
+    verdict.refuse(fmt::format(
+        "the feet move by {:.0f} % of a leg: nobody runs here; if the file of points holds others, "
+        "take another person (stride track --import … --person 2)",
+        100 * std::hypot(fore_aft, vertical) / leg));
+  else if (fore_aft < 0.45 * leg)
+    verdict.refuse(
+        fmt::format("the feet swing by {:.0f} % of a leg fore and aft, a runner's by 100 "
+                    "%: not seen from the side",
+                    100 * fore_aft / leg));
+}
+
+/// Whether the background moves here as in neither of the frames beside, by two fifths of a leg; or
+/// is lost.
+bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
+  const auto& frames = trajectory.frames;
+  if (!frames[i].camera_px.allFinite()) return true;
+  const auto leaps = [&](std::size_t j) {
+    return (frames[i].camera_px - frames[j].camera_px).norm() > 0.4 * leg_px;
+  };
+  return i >= 2 && i + 1 < frames.size() && leaps(i - 1) && leaps(i + 1);
+}
+
+/// Frames whose background has nothing to do with that of the frame before. Where there are many,
+/// it cannot be followed and says nothing.
+void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+  std::vector<int> changes;
+  for (std::size_t i = 1; i < trajectory.frames.size(); ++i)
+    if (scene_changes(trajectory, i, leg_px)) changes.push_back(trajectory.frames[i].frame);
+  if (changes.empty() || changes.size() > std::max<std::size_t>(1, trajectory.frames.size() / 50))
+    return;
+  verdict.note(fmt::format("the background changes at frame {}: a cut; trim the clip",
+                           fmt::join(changes, ", ")));
+}
+
+/// Jumps of the pelvis by more than half a leg between neighbouring frames.
+void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
+                const fit::StrideFit& fit, double leg_px, Verdict& verdict) {
+  for (std::size_t i = 1; i < fit.pelvis_px.size(); ++i) {
+    const double jump = (fit.pelvis_px[i] - fit.pelvis_px[i - 1]).norm();
+    const double gap_s = observations.u_s[i] - observations.u_s[i - 1];
+    if (jump < 0.5 * leg_px || jump / gap_s < 15 * leg_px) continue;
+    verdict.note(
+        fmt::format("the runner jumps by {:.0f} px at frame {}: a cut, or another person; "
+                    "trim the clip",
+                    jump, trajectory.frames[i].frame));
+    return;
+  }
+}
+
+/// The longest time for which nothing is seen: no mark at all, or none in which the picture was
+/// believed.
+void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
+  constexpr double kLongest = 1.0 / 3;  // of a stride
+  const TrajectoryFrame* last = nullptr;
+  std::array<const TrajectoryFrame*, 2> gap{};
+  double longest_s = 0;
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    if (std::ranges::none_of(frame.points, [](const Point& point) {
+          return point.present() && point.confidence > kPriorOnlyConfidence;
+        }))
+      continue;
+    if (last != nullptr && frame.time_s - last->time_s > longest_s)
+      longest_s = frame.time_s - last->time_s, gap = {last, &frame};
+    last = &frame;
+  }
+  if (longest_s > kLongest * period_s)
+    verdict.note(
+        fmt::format("nothing is seen between frames {} and {}: black, hidden or lost; the other "
+                    "strides speak for them",
+                    gap[0]->frame, gap[1]->frame));
+}
+
+/// Which part has the most marks that were not believed.
+std::string worst_part(const fit::Marks& observations, const fit::StrideFit& fit) {
+  std::array<int, kBodyPartCount> bad{};
+  for (std::size_t i = 0; i < fit.marks.size(); ++i)
+    bad[index(observations.points[i].part)] += fit.marks[i].outlier ? 1 : 0;
+  const auto worst = std::ranges::max_element(bad) - bad.begin();
+  return fmt::format("{} in {} frames", name(kBodyParts[worst]), bad[worst]);
+}
+
+/// Free fall tells the time: the pelvis' greatest downward acceleration, in g.
+double apparent_gravity(const fit::StrideFit& fit) {
+  const double turn = 4 * std::numbers::pi / fit.runner.cadence[cadence::period_s];
+  double least = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector4d w = fit::VerticalOscillation::weights(i / 100.0);
+    least = std::min(least, -turn * turn *
+                                (w.head<2>().dot(fit.vertical_oscillation.c.head<2>()) +
+                                 4 * w.tail<2>().dot(fit.vertical_oscillation.c.tail<2>())));
+  }
+  return -least / 9.81;
+}
+
+/// What no runner does.
+void judge_heights(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  constexpr double kMost_m = 0.35;  // in a step; runners' pelvis rises by 0.06 to 0.13
+  if (gait.vertical_oscillation_m > kMost_m)
+    verdict.refuse(
+        fmt::format("the pelvis rises and falls by {:.2f} m in a step, a runner's by a tenth: are "
+                    "the marks on the right joints, does the camera shake?",
+                    gait.vertical_oscillation_m));
+  if (gait.speed_m_s < 0.2)
+    verdict.alarm(
+        fmt::format("the foot that stands goes back by {:.2f} m/s: a run on the spot, or "
+                    "marks on wrong joints?",
+                    gait.speed_m_s));
+  const double ratio = fit.runner.body[body::thigh] / fit.runner.body[body::shank];
+  if (ratio < 0.65 || ratio > 1.5)
+    verdict.alarm(fmt::format(
+        "the thigh is {:.2f} times the shank: a character, or marks on wrong joints", ratio));
+}
+
+/// One alarm may be a runner of an odd kind; several together are no runner.
+void judge_alarms(Verdict& verdict) {
+  constexpr int kMost = 3;
+  if (verdict.refused || verdict.alarms <= kMost) return;
+  const std::string reasons = fmt::format("{}", fmt::join(verdict.reasons, "; "));
+  verdict.refuse(fmt::format("{} things are unlike a runner: {}", verdict.alarms, reasons));
+}
+
+/// Whether the clip's time is the runner's. Returns whether it plays slowly, which then explains
+/// all that is odd about falling and speed.
+bool judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
+  const double period = fit.runner.cadence[cadence::period_s];
+  if (strides < 0.9)
+    verdict.refuse(fmt::format("{:.2f} strides are seen: one is needed, two to be sure", strides));
+  else if (strides < 1.5)
+    verdict.note(
+        fmt::format("only {:.2f} strides are seen: nothing tells whether they repeat", strides));
+  if (gait.walks)
+    verdict.note(
+        fmt::format("this is walking: a foot stands for {:.0f} % of the stride", 100 * gait.duty));
+  constexpr double kImpossible_s = 0.36;  // 5.6 steps a second
+  const double shortest = gait.walks ? 0.75 : 0.45, longest = gait.walks ? 1.8 : 1.05;
+  if (const std::string doubt = tracking::doubt_of_period(period, shortest, longest);
+      !doubt.empty())
+    period < kImpossible_s ? verdict.refuse(doubt) : verdict.alarm(doubt);
+  return period > longest;
+}
+
+void judge_speed(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  constexpr double kSprint_m_s = 8, kRecord_m_s = 12.5;  // Bolt's fastest 20 m: 12.4
+  constexpr const char* kCure =
+      "is the frame rate, the slow-motion factor (--slow-motion) or the runner's size (--leg) "
+      "right?";
+  if (gait.speed_m_s > kRecord_m_s)
+    verdict.refuse(fmt::format("{:.1f} m/s is faster than anybody: {}", gait.speed_m_s, kCure));
+  else if (gait.speed_m_s > kSprint_m_s)
+    verdict.alarm(fmt::format("{:.1f} m/s is a sprint: {}", gait.speed_m_s, kCure));
+  const double gravity = apparent_gravity(fit);
+  if (!gait.walks && fit.vertical_oscillation.peak_to_peak_m() > 0.02 &&
+      (gravity < 0.45 || gravity > 3))
+    verdict.alarm(fmt::format("the runner falls with {:.1f} g: {}", gravity, kCure));
+}
+
+}  // namespace
+
+void Verdict::refuse(std::string reason) {
+  if (!refused) reasons.clear();
+  refused = true;
+  reasons.push_back(std::move(reason));
+}
+
+std::string Verdict::text() const {
+  if (reasons.empty()) return "ok";
+  return fmt::format("{}{}", refused ? "refused: " : "ok, but ", fmt::join(reasons, "; "));
+}
+
+Verdict judge_marks(const Trajectory& trajectory) {
+  Verdict verdict;
+  judge_parts(trajectory, verdict);
+  if (!verdict.refused) judge_view(trajectory, verdict);
+  return verdict;
+}
+
+void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
+               const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  if (!fit.ok) {
+    verdict.refuse(fit.failure);
+    return;
+  }
+  const Runner& r = fit.runner;
+  const double leg_px = stride::leg_px(r);
+  const double relative = fit.sigma_px / leg_px;
+  if (fit.explained < 0.75)
+    verdict.refuse(
+        fmt::format("no stride repeats: the best period explains {:.0f} % of how the legs "
+                    "move; is it one runner, with the legs told apart?",
+                    100 * std::max(fit.explained, 0.0)));
+  if (relative > 0.1)
+    verdict.refuse(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg: are they on "
+                    "the right joints?",
+                    100 * relative));
+  else if (relative > 0.05)
+    verdict.alarm(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
+  if (fit.backward)
+    verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
+  const std::string outliers = fmt::format(
+      "{:.0f} % of the marks fit no stride, most of them {}: swapped legs, another "
+      "person, or lost tracks",
+      100 * fit.outlier_fraction, worst_part(observations, fit));
+  if (fit.outlier_fraction > 0.3)
+    verdict.refuse(outliers);
+  else if (fit.outlier_fraction > 0.12)
+    verdict.alarm(outliers);
+  if (!judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict))
+    judge_speed(fit, gait, verdict);
+  judge_scene(trajectory, leg_px, verdict);
+  judge_cuts(trajectory, observations, fit, leg_px, verdict);
+  judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
+  if (gait.correlation < 0.6)
+    verdict.alarm(
+        fmt::format("hip and knee move unlike a human runner's (correlation {:.2f}): are the marks "
+                    "on the right joints, is the frame rate or the slow-motion factor right?",
+                    gait.correlation));
+  judge_heights(fit, gait, verdict);
+  judge_alarms(verdict);
+}
+
+}  // namespace stride::gait

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/fit.h"
+#include "calibrate/gait/gait.h"
+#include "extract/skeleton/trajectory.h"
+
+namespace stride::gait {
+
+/// Whether a clip can be explained as one runner seen from the side, and what is odd about it.
+struct Verdict {
+  bool refused = false;
+  std::vector<std::string> reasons;  // each with what to do about it
+  int alarms = 0;                    // reasons that are unlike a runner
+
+  void refuse(std::string reason);
+  void note(std::string reason) { reasons.push_back(std::move(reason)); }
+  void alarm(std::string reason) {
+    note(std::move(reason));
+    ++alarms;
+  }
+  /// "ok", "ok, but …; …", or "refused: …".
+  std::string text() const;
+};
+
+/// What can be seen without a fit: parts that are missing, a clip that stands on its head, somebody
+/// who stands or comes towards the camera.
+Verdict judge_marks(const Trajectory& trajectory);
+
+/// What the fit shows; adds to `verdict`.
+void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
+               const fit::StrideFit& fit, const Gait& gait, Verdict& verdict);
+
+}  // namespace stride::gait

@@ -1,0 +1,135 @@
+#include "calibrate/report/report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/gait/human_running.h"
+#include "extract/io/file.h"
+
+namespace stride::report {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Parts of the stride in which an angle lies outside the band of measured runners.
+std::string outside_band(const fit::StrideFit& fit, const gait::Gait& gait) {
+  const gait::HumanRunning human = gait::load_human_running();
+  const Runner& r = fit.runner;
+  std::string text;
+  const auto compare = [&](const char* joint, const auto& curve,
+                           const gait::HumanRunning::Joint& band) {
+    int outside = 0, since = -1;
+    double farthest = 0, where = 0;
+    std::string spans;
+    for (int i = 0; i < 100; ++i) {
+      const double phase = i / 100.0,
+                   angle = evaluate_series(curve.data(), fit.harmonics, phase + gait.foot_strike);
+      const double low = human.at(band.low, phase), high = human.at(band.high, phase);
+      const double out = angle < low ? angle - low : angle > high ? angle - high : 0;
+      outside += out != 0 ? 1 : 0;
+      if (out != 0 && since < 0) since = i;
+      if (since >= 0 && (out == 0 || i == 99)) {
+        const int last = out == 0 ? i - 1 : i;
+        spans += spans.empty() ? "" : ", ";
+        spans += since == last ? fmt::format("{}", last) : fmt::format("{}-{}", since, last);
+        since = -1;
+      }
+      if (std::abs(out) > std::abs(farthest)) farthest = out, where = phase;
+    }
+    text += fmt::format("  {:<6} {:3} % of the stride outside", joint, outside);
+    if (outside > 0)
+      text += fmt::format(" (at {} %), farthest {:+.0f} deg at {:.0f} %", spans, farthest / kDegree,
+                          100 * where);
+    text += "\n";
+  };
+  compare("hip", r.hip, human.hip);
+  compare("knee", r.knee, human.knee);
+  if (fit.toes_seen)
+    compare("ankle", r.ankle, human.ankle);
+  else
+    text += "  ankle  not seen (no toes): the mean of measured runners is used\n";
+  return text;
+}
+
+std::string residuals_by_part(const Calibration& c) {
+  std::array<double, kBodyPartCount> sum{}, marks{}, outliers{};
+  for (std::size_t i = 0; i < c.fit.marks.size(); ++i) {
+    const int part = index(c.observations.points[i].part);
+    ++marks[part];
+    if (c.fit.marks[i].outlier)
+      ++outliers[part];
+    else
+      sum[part] += c.fit.marks[i].r_px.squaredNorm();
+  }
+  std::string text;
+  for (const BodyPart part : kBodyParts) {
+    const int i = index(part);
+    if (marks[i] == 0) continue;
+    const double rms = std::sqrt(sum[i] / std::max(marks[i] - outliers[i], 1.0));
+    text += fmt::format("  {:<8} {:5.0f} marks  {:6.2f} px rms  {:5.1f} cm  {:4.0f} not believed\n",
+                        name(part), marks[i], rms, 100 * rms * c.run.metres_per_pixel, outliers[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
+                        const Calibration& c) {
+  std::string text =
+      fmt::format("clip      {}\nverdict   {}\n", trajectory.video, c.verdict.text());
+  if (!c.fit.ok) return text;
+  const Runner& r = c.fit.runner;
+  const double leg = r.body[body::thigh] + r.body[body::shank];
+  const auto line = [&]<typename... A>(fmt::format_string<A...> format, A&&... args) {
+    text += fmt::format(format, std::forward<A>(args)...) + "\n";
+  };
+  line("frames    {} in {:.2f} s, {:.2f} strides, the runner faces {}", trajectory.frames.size(),
+       c.observations.duration_s, c.observations.duration_s / c.run.period_s,
+       c.observations.to_left ? "left" : "right");
+  line("period    {:.4f} s +- {:.4f}, cadence {:.0f} steps a minute", c.run.period_s,
+       c.run.period_sd_s, 120 / c.run.period_s);
+  line("speed     {:.2f} m/s, a foot stands for {:.0f} % of the stride", c.run.speed_m_s,
+       100 * c.gait.duty);
+  line("scale     {:.3f} mm per pixel +- {:.1f} %, drift {:+.1f} % a second",
+       1000 * c.run.metres_per_pixel, 100 * c.fit.scale_relative_sd(),
+       -100 * r.camera[camera::drift_per_s]);
+  line("          from the length of the runner's legs; --height, --leg or --scale say it better");
+  line("roll      {:+.2f} deg +- {:.2f} (the ground rises to the right)",
+       c.run.camera_roll_rad / kDegree, c.fit.roll_sd_rad() / kDegree);
+  line("runner    thigh {:.3f} m, shank {:.3f} m, together {:.3f} m; the model's {:.3f} and {:.3f}",
+       r.body[body::thigh], r.body[body::shank], leg, model.thigh_m(), model.shank_m());
+  line("pelvis    {:.3f} m high on the model, rises and falls by {:.0f} mm", c.gait.pelvis_height_m,
+       1000 * c.gait.vertical_oscillation_m);
+  line("fit       {} harmonics, {:.2f} px rms ({:.1f} cm), {:.1f} % of the marks not believed",
+       c.fit.harmonics, c.fit.rms_px, 100 * c.run.rms_m, 100 * c.fit.outlier_fraction);
+  text += "marks\n" + residuals_by_part(c);
+  text += "angles against measured runners at 3.8 to 4 m/s";
+  if (c.gait.walks)
+    text += " (this is walking)";
+  else if (c.run.speed_m_s < 3.6)
+    text += fmt::format(" ({:.1f} m/s: slower runners lift thigh and heel less)", c.run.speed_m_s);
+  text += "\n" + outside_band(c.fit, c.gait);
+  return text;
+}
+
+void save_mot(const CalibratedTrajectory& run, const std::filesystem::path& file) {
+  std::string text =
+      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\nendheader\ntime",
+                  run.source, run.samples.size(), 1 + kCoordinateNames.size());
+  for (const char* name : kCoordinateNames) text += fmt::format("\t{}", name);
+  text += "\n";
+  for (const CalibratedSample& sample : run.samples) {
+    text += fmt::format("{:.8g}", sample.time_s);
+    for (std::size_t i = 0; i < sample.coordinates.size(); ++i) {
+      const bool metres = i == 1 || i == 2;
+      text += fmt::format("\t{:.8f}", sample.coordinates[i] / (metres ? 1 : kDegree));
+    }
+    text += "\n";
+  }
+  write_file_atomically(file, text);
+}
+
+}  // namespace stride::report

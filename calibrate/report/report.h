@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "calibrate/calibrate.h"
+
+namespace stride::report {
+
+/// What was found out about a clip, for a person: verdict, stride, camera, runner, residuals.
+std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
+                        const Calibration& calibration);
+
+/// Draws, as SVG: the keyframes on the frames of the video (on nothing, if `video` is empty), marks
+/// against the fit with its 95 % bands over the clip and over the stride, and the angles against
+/// the band of measured runners. Throws Error if gnuplot cannot be run.
+void draw_report(const Trajectory& trajectory, const SagittalModel& model,
+                 const Calibration& calibration, const std::filesystem::path& video,
+                 const std::filesystem::path& file);
+
+/// OpenSim's storage of the nine coordinates, degrees and metres: NAME.mot.
+void save_mot(const CalibratedTrajectory& run, const std::filesystem::path& file);
+
+}  // namespace stride::report

@@ -1,0 +1,269 @@
+// The picture of the report, drawn by gnuplot from data given in its script.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/gait/human_running.h"
+#include "calibrate/report/report.h"
+#include "calibrate/report/report_frames.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/gnuplot.h"
+
+namespace stride::report {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// The picture, and the strip of frames in it.
+constexpr int kWidth_px = 1100, kHeight_px = 1180;
+constexpr int kStripLeft_px = 20, kStripTop_px = 42, kStrip_px = 1060, kStripHeight_px = 196;
+
+/// A block of data of a gnuplot script.
+class Block {
+ public:
+  explicit Block(const std::string& name) : text_(fmt::format("${} << EOD\n", name)) {}
+  template <typename... Numbers>
+  void row(Numbers... numbers) {
+    ((text_ += std::isnan(static_cast<double>(numbers))
+                   ? "? "
+                   : fmt::format("{:.6g} ", static_cast<double>(numbers))),
+     ...);
+    text_ += "\n";
+  }
+  void gap() { text_ += "\n"; }
+  std::string end() { return text_ + "EOD\n"; }
+
+ private:
+  std::string text_;
+};
+
+constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
+                                          BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l};
+
+double percent(double phase) { return 100 * (phase - std::floor(phase)); }
+
+/// Every mark of a part from the fitted pelvis, in axes of the ground, px in the middle of the
+/// clip: time, % of the leg's own stride, x, y, whether it was not believed.
+std::string marks(const Calibration& c, BodyPart part) {
+  const Runner& r = c.fit.runner;
+  Block points(fmt::format("{}_marks", name(part)));
+  for (std::size_t i = 0; i < c.fit.marks.size(); ++i) {
+    const fit::Mark& mark = c.observations.points[i];
+    if (mark.part != part) continue;
+    const double scale = std::exp(r.camera[camera::drift_per_s] * mark.u_s);
+    const Eigen::Vector2d p =
+        turned(-r.camera[camera::roll], Eigen::Vector2d(mark.z_px - c.fit.pelvis_px[mark.frame])) /
+        scale;
+    const double phase = phase_at(r.cadence.data(), mark.u_s) - c.gait.foot_strike;
+    points.row(mark.u_s + c.observations.middle_s, percent(phase + (side_of(part) > 0 ? 0.0 : 0.5)),
+               p.x(), p.y(), c.fit.marks[i].outlier ? 1 : 0);
+  }
+  return points.end();
+}
+
+/// Where the fit has a part, from the pelvis in axes of the ground, px in the middle of the clip:
+/// how large the runner is does not matter there.
+Eigen::Vector2d fitted(const fit::StrideFit& fit, const Directions& directions, BodyPart part,
+                       double phase) {
+  const Runner& r = fit.runner;
+  const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
+                              fit.harmonics, side_of(part), phase);
+  return std::exp(r.camera[camera::log_px_per_m]) *
+         place_part(part, directions, r.body.data(), r.sides.data(),
+                    evaluate_series(r.tilt.data(), 2, phase), leg, phase);
+}
+
+/// The fit over the clip (time, x) and over the leg's own stride with its 95 % band
+/// (%, x, y, x low, x high, y low, y high).
+std::string curves(const Calibration& c, const Directions& directions, BodyPart part) {
+  Block in_time(fmt::format("{}_time", name(part))), in_phase(std::string(name(part)));
+  for (int i = 0; i <= 400; ++i) {
+    const double u = (i / 400.0 - 0.5) * c.observations.duration_s;
+    in_time.row(u + c.observations.middle_s,
+                fitted(c.fit, directions, part, phase_at(c.fit.runner.cadence.data(), u)).x());
+  }
+  for (int i = 0; i <= 50; ++i) {
+    const double phase = i / 50.0 + c.gait.foot_strike - (side_of(part) > 0 ? 0.0 : 0.5);
+    const auto place = [&](const fit::StrideFit& fit) -> Eigen::VectorXd {
+      return fitted(fit, directions, part, phase);
+    };
+    const Eigen::Vector2d p = place(c.fit), band = 1.96 * fit::propagated_sd(c.fit, place);
+    in_phase.row(2 * i, p.x(), p.y(), p.x() - band.x(), p.x() + band.x(), p.y() - band.y(),
+                 p.y() + band.y());
+  }
+  return in_time.end() + in_phase.end();
+}
+
+/// Stick figures of the model at eight phases, side by side.
+std::string poses(const Calibration& c) {
+  Block right("right"), left("left"), trunk("trunk");
+  for (int k = 0; k < kReportKeyframes; ++k) {
+    const double phase = static_cast<double>(k) / kReportKeyframes;
+    const auto nearest = std::ranges::min_element(c.run.samples, {}, [&](const auto& sample) {
+      const double d = sample.phase - phase;
+      return std::abs(d - std::round(d));
+    });
+    const Eigen::Vector2d at(1.15 * k, nearest->coordinates[2]);
+    const auto chain = [&](Block& block, std::initializer_list<BodyPart> parts) {
+      for (const BodyPart part : parts) {
+        const Eigen::Vector2d p = at + (*nearest)[part];
+        const Eigen::Vector2d sd = nearest->sd_m[index(part)];
+        block.row(p.x(), p.y(), 2 * sd.x(), 2 * sd.y());
+      }
+      block.gap();
+    };
+    chain(right, {BodyPart::hip_r, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r});
+    chain(left, {BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l});
+    chain(trunk, {BodyPart::hip_r, BodyPart::head});
+  }
+  return right.end() + left.end() + trunk.end();
+}
+
+/// Hip, knee and ankle over the stride with their 95 % bands, and the band of measured runners.
+std::string angles(const Calibration& c) {
+  const gait::HumanRunning human = gait::load_human_running();
+  Block mean("angles"), band("band");
+  for (int i = 0; i <= 50; ++i) {
+    const double at = i / 50.0 + c.gait.foot_strike;
+    const auto values = [&](const fit::StrideFit& fit) -> Eigen::VectorXd {
+      const auto value = [&](const auto& curve) {
+        return evaluate_series(curve.data(), fit.harmonics, at) / kDegree;
+      };
+      return Eigen::Vector3d(value(fit.runner.hip), value(fit.runner.knee),
+                             value(fit.runner.ankle));
+    };
+    const Eigen::Vector3d q = values(c.fit), sd = 1.96 * fit::propagated_sd(c.fit, values);
+    mean.row(2 * i, q[0], q[0] - sd[0], q[0] + sd[0], q[1], q[1] - sd[1], q[1] + sd[1], q[2],
+             q[2] - sd[2], q[2] + sd[2]);
+  }
+  for (std::size_t i = 0; i < human.phase.size(); ++i)
+    band.row(100 * human.phase[i], human.hip.low[i] / kDegree, human.hip.high[i] / kDegree,
+             human.knee.low[i] / kDegree, human.knee.high[i] / kDegree,
+             human.ankle.low[i] / kDegree, human.ankle.high[i] / kDegree);
+  return mean.end() + band.end();
+}
+
+constexpr const char* kStyle = R"(
+set encoding utf8
+set style line 1 lc rgb '#c23b22' lw 1.8
+set style line 2 lc rgb '#1f5fa8' lw 1.8
+set style line 3 lc rgb '#555555' lw 1.8
+set style fill solid 1 noborder
+set border 3 lc rgb '#999999'
+set tics nomirror scale 0.5 textcolor rgb '#444444'
+set grid ytics lc rgb '#eeeeee' lt 1
+set multiplot
+)";
+
+/// The model at the keyframes, where there is no video to draw on.
+constexpr const char* kPoses = R"(
+unset key; unset tics; unset border; unset grid
+set lmargin 2; set rmargin 1; set tmargin 0; set bmargin 1
+set origin 0,0.795; set size 1,0.165
+set size ratio -1; set xrange [-0.6:8.65]; set yrange [-0.05:1.65]
+plot 0 w l lc rgb '#bbbbbb', $trunk u 1:2 w l ls 3, $left u 1:2 w lp ls 2 pt 7 ps 0.4,      $right u 1:2 w lp ls 1 pt 7 ps 0.4,      $left u 1:2:3:4 w xyerrorbars lc rgb '#1f5fa8' pt 0, $right u 1:2:3:4 w xyerrorbars lc rgb '#c23b22' pt 0
+set size noratio; set border 3; set tics; set xrange [*:*]; set yrange [*:*]
+set grid ytics lc rgb '#eeeeee' lt 1
+set tmargin -1; set bmargin -1
+)";
+
+constexpr const char* kTime = R"(
+set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb '#444444'
+set lmargin 8; set rmargin 2; set origin 0,0.605; set size 1,0.165
+set xlabel 'time, s' offset 0,0.7; set ylabel 'ankle forward, px' offset 1,0; set xrange [*:*] noextend
+plot $ankle_r_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#e39a8c' notitle,      $ankle_l_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#93b4dc' notitle,      $ankle_r_time u 1:2 w l ls 1 t 'right leg', $ankle_l_time u 1:2 w l ls 2 t 'left leg',      $ankle_r_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' t 'not believed',      $ankle_l_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' notitle
+unset key
+set xtics 0,25,100 nomirror; set xrange [0:100]; set yrange [*:*]
+)";
+
+/// Panel of one coordinate of a part over the leg's own stride: {0} origin, {1} part, {2} its
+/// column among the marks, {3} among the curves, {4} of the band's low end, {5} labels.
+constexpr const char* kPart = R"(
+set origin {0}; set size 0.335,0.20; {5}
+plot ${1}_r u 1:{4}:(column({4}+1)) w filledcurves lc rgb '#f3cfc8',      ${1}_l u 1:{4}:(column({4}+1)) w filledcurves lc rgb '#cddcf0',      ${1}_r_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb '#dd8877',      ${1}_l_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb '#7fa5d4',      ${1}_r u 1:{3} w l ls 1, ${1}_l u 1:{3} w l ls 2
+)";
+
+constexpr const char* kAngles = R"(
+set xlabel '% of the stride from its own foot strike' offset 0,0.7
+set origin 0,0; set size 0.335,0.205; set ylabel 'hip flexion, deg' offset 1,0
+plot $band u 1:2:3 w filledcurves lc rgb '#dcdcdc', $angles u 1:3:4 w filledcurves lc rgb '#b9b0d8', $angles u 1:2 w l lc rgb '#4b3b8f' lw 1.8
+set origin 0.332,0; set ylabel 'knee angle, deg'
+plot $band u 1:4:5 w filledcurves lc rgb '#dcdcdc', $angles u 1:6:7 w filledcurves lc rgb '#b9b0d8', $angles u 1:5 w l lc rgb '#4b3b8f' lw 1.8
+set origin 0.664,0; set ylabel 'ankle angle, deg'
+plot $band u 1:6:7 w filledcurves lc rgb '#dcdcdc', $angles u 1:9:10 w filledcurves lc rgb '#b9b0d8', $angles u 1:8 w l lc rgb '#4b3b8f' lw 1.8
+unset multiplot
+)";
+
+/// Knees, ankles and toes, forward and up.
+std::string part_panels() {
+  std::string text;
+  for (const int axis : {0, 1})
+    for (int i = 0; i < 3; ++i) {
+      const std::string part = std::array{"knee", "ankle", "toe"}[i];
+      const std::string labels = fmt::format("set ylabel '{} {}, px' offset 1,0; unset xlabel",
+                                             part, axis == 0 ? "forward" : "up");
+      text += fmt::format(fmt::runtime(kPart),
+                          fmt::format("{},{}", 0.332 * i, axis == 0 ? 0.405 : 0.21), part, 3 + axis,
+                          2 + axis, 4 + 2 * axis, labels);
+    }
+  return text;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t j) {
+      return j < bytes.size() ? static_cast<unsigned>(static_cast<unsigned char>(bytes[j])) : 0u;
+    };
+    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (std::size_t digit = 0; digit < 4; ++digit)
+      text += i + digit > bytes.size() ? '=' : kDigits[three >> (18 - 6 * digit) & 63];
+  }
+  return text;
+}
+
+}  // namespace
+
+void draw_report(const Trajectory& trajectory, const SagittalModel& model, const Calibration& c,
+                 const std::filesystem::path& video, const std::filesystem::path& file) {
+  const Directions directions(model);
+  std::string script =
+      fmt::format("set terminal svg size {},{} background rgb 'white' font 'DejaVu Sans,11'\n{}",
+                  kWidth_px, kHeight_px, kStyle);
+  int label = 0;
+  const auto write = [&](const std::string& text, double x, double y, const char* how) {
+    script += fmt::format("set label {} {} at screen {},{} {} noenhanced\n", ++label,
+                          gnuplot_string(text), x, y, how);
+  };
+  const std::string title = fmt::format(
+      "{}: stride {:.3f} ± {:.3f} s, {:.2f} m/s, {} harmonics, {:.2f} px rms ({:.1f} cm)",
+      trajectory.video, c.run.period_s, 1.96 * c.run.period_sd_s, c.run.speed_m_s, c.fit.harmonics,
+      c.fit.rms_px, 100 * c.run.rms_m);
+  write(title, 0.02, 0.985, "font ',13'");
+  write("bands: 95 %; points: marks; grey: measured runners at 3.8 to 4 m/s", 0.98, 0.985,
+        "right font ',10' textcolor rgb '#777777'");
+  for (int k = 0; k < kReportKeyframes; ++k)
+    write(fmt::format("{:.0f} %", 100.0 * k / kReportKeyframes),
+          (kStripLeft_px + (k + 0.5) * kStrip_px / kReportKeyframes) / kWidth_px, 0.789,
+          "center textcolor rgb '#444444'");
+  for (const BodyPart part : kTraced) script += marks(c, part) + curves(c, directions, part);
+  script += poses(c) + angles(c) + (video.empty() ? kPoses : "") + kTime;
+  script += "unset label\n";
+  script += part_panels() + kAngles;
+  std::string svg = run_gnuplot(script);
+  const std::size_t end = svg.rfind("</svg>");
+  if (!video.empty() && end != std::string::npos)
+    svg.insert(end, fmt::format("<image x='{}' y='{}' width='{}' height='{}' "
+                                "href='data:image/jpeg;base64,{}'/>\n",
+                                kStripLeft_px, kStripTop_px, kStrip_px, kStripHeight_px,
+                                base64(keyframe_strip(video, trajectory, model, c, 2 * kStrip_px,
+                                                      2 * kStripHeight_px))));
+  write_file_atomically(file, svg);
+}
+
+}  // namespace stride::report

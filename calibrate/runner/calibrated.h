@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "extract/skeleton/body_part.h"
+
+namespace stride {
+
+/// The nine coordinates of the runner, in the order of the model: rad, pelvis_tx and pelvis_ty in
+/// m.
+inline constexpr std::array<const char*, 9> kCoordinateNames{
+    "pelvis_tilt",   "pelvis_tx",     "pelvis_ty",    "hip_flexion_r", "knee_angle_r",
+    "ankle_angle_r", "hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
+
+/// The model at one moment. Axes of the ground: x forward (the way of running, whichever way the
+/// video shows), y up.
+struct CalibratedSample {
+  double time_s = 0;
+  double phase = 0;  // of the stride, [0, 1); 0 = right foot strike where that is known
+  std::array<double, 9> coordinates{};  // kCoordinateNames; pelvis_ty above the ground
+  double pelvis_height_sd_m = std::numeric_limits<double>::quiet_NaN();
+  /// p_PK of every part of the model: from the model's pelvis origin P (7.1 cm before and 6.6 cm
+  /// above the hips), in axes of the ground, not of the tilting pelvis, m. Knee: origin of tibia;
+  /// ankle: of talus; toe: of toes; hip: of femur; head: of head. `pelvis` is (0, 0).
+  std::array<Eigen::Vector2d, kBodyPartCount> p_m;
+  /// One standard deviation of p_m; NaN where it is not known.
+  std::array<Eigen::Vector2d, kBodyPartCount> sd_m = unknown_points();
+
+  const Eigen::Vector2d& operator[](BodyPart part) const { return p_m[index(part)]; }
+
+  static std::array<Eigen::Vector2d, kBodyPartCount> unknown_points();
+};
+
+/// A run on the proportions of the model: what `calibrate/` makes of a trajectory, and `train/` of
+/// an agent's own run.
+struct CalibratedTrajectory {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string source, source_sha256;  // the video, or the run folder of an agent
+  std::string model;                  // name of the model whose proportions these are
+  double period_s = kUnknown, period_sd_s = kUnknown;  // of the stride
+  double speed_m_s = kUnknown;
+  double metres_per_pixel = kUnknown, camera_roll_rad = kUnknown;
+  double rms_px = kUnknown, rms_m = kUnknown;  // measured points against the fit
+  std::string verdict = "ok";                  // "ok", or what is wrong with the clip
+  std::vector<CalibratedSample> samples;       // equally spaced in time, at least one stride
+};
+
+/// NAME.calibrated.csv: `# stride calibrated 1`, unit m; columns time_s, phase, the coordinates by
+/// name, pelvis_ty_sd, and <part>_x, <part>_y, <part>_x_sd, <part>_y_sd (the deviations may be
+/// absent). Errors name the file, and the cure where the file is still a trajectory in pixels.
+CalibratedTrajectory load_calibrated(const std::filesystem::path& file);
+void save(const CalibratedTrajectory& trajectory, const std::filesystem::path& file);
+
+}  // namespace stride

@@ -1,0 +1,33 @@
+#include "extract/annotation/labelled_clip.h"
+
+#include "extract/annotation/journal.h"
+#include "extract/io/error.h"
+
+namespace stride::tracking {
+namespace fs = std::filesystem;
+
+LabelledClip clicks_on(const fs::path& video, const fs::path& keypoints_file, double slow_motion) {
+  require(fs::exists(video), "{}: no such video", video.string());
+  annotation::fold_left_over_journal(keypoints_file);
+  require(fs::exists(keypoints_file),
+          "{}: no such file; click points with 'stride annotate {}', or import them with 'stride "
+          "track --import'",
+          keypoints_file.string(), video.string());
+  Keypoints keypoints = load_keypoints(keypoints_file);
+  check_belongs_to(keypoints, video);
+  if (slow_motion > 0) keypoints.slow_motion = slow_motion;
+  LabelledClip labelled{marks_of(keypoints), keypoints.slow_motion};
+  labelled.marks.video = video.filename().string();
+  return labelled;
+}
+
+Tracked track(const fs::path& video, const LabelledClip& labelled, const TrackOptions& options,
+              const video::DecodeOptions& decode_options) {
+  video::Video frames(video, labelled.slow_motion);
+  video::DecodedClip clip = video::decode_clip(
+      labelled.marks, [&](video::VideoFrame& frame) { return frames.read(frame); }, decode_options);
+  clip.shortfall = frames.shortfall();
+  return track(labelled.marks, clip, options);
+}
+
+}  // namespace stride::tracking

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "extract/tracking/track.h"
+
+namespace stride::tracking {
+
+/// What is marked on a video.
+struct LabelledClip {
+  Trajectory marks;
+  double slow_motion = 1;  // seconds of video a second of the runner
+};
+
+/// The clicks on a video, those that a killed `stride annotate` left in its journal included.
+/// `slow_motion` > 0 replaces what the clicks say. Throws Error naming the cure where there is no
+/// such video, where it was not clicked, or where it is not the one that was clicked.
+LabelledClip clicks_on(const std::filesystem::path& video,
+                       const std::filesystem::path& keypoints_file, double slow_motion);
+
+/// Follows the marks through the frames of their video, which is decoded once.
+Tracked track(const std::filesystem::path& video, const LabelledClip& labelled,
+              const TrackOptions& options = {}, const video::DecodeOptions& decode_options = {});
+
+}  // namespace stride::tracking

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "extract/import/parsing/detections.h"
+
+/// One reader a format: content of a file in, everybody that it holds out. `file` is for the error
+/// messages. All throw Error with file, line and what was expected; none guesses.
+namespace stride::imports {
+
+/// One frame of OpenPose (15, 18 or 25 points).
+ImportedFile read_openpose(std::string_view content, const std::string& file, int frame);
+/// Analysis or labels, one or several animals.
+ImportedFile read_deeplabcut(std::string_view content, const std::string& file,
+                             const ImportOptions& options);
+/// Results of COCO and AlphaPose (a list), annotations of COCO (an object).
+ImportedFile read_coco(std::string_view content, const std::string& file,
+                       const ImportOptions& options);
+/// What MMPose's demo writes with --save-predictions.
+ImportedFile read_mmpose(std::string_view content, const std::string& file,
+                         const ImportOptions& options);
+/// Analysis CSV.
+ImportedFile read_sleap(std::string_view content, const std::string& file,
+                        const ImportOptions& options);
+/// Sports2D's pixels, OpenSim's form.
+ImportedFile read_trc(std::string_view content, const std::string& file,
+                      const ImportOptions& options);
+/// CVAT for video 1.1: skeletons, tracks in tracks, or a track a point.
+ImportedFile read_cvat(std::string_view content, const std::string& file,
+                       const ImportOptions& options);
+/// One table of all tracks.
+ImportedFile read_kinovea(std::string_view content, const std::string& file,
+                          const ImportOptions& options);
+/// DLTdv and Argus xypts, first camera.
+ImportedFile read_dltdv(std::string_view content, const std::string& file,
+                        const ImportOptions& options);
+/// What export_points() writes, and NAME.trajectory.csv.
+ImportedFile read_own_csv(std::string_view content, const std::string& file,
+                          const ImportOptions& options);
+ImportedFile read_own_json(std::string_view content, const std::string& file);
+
+}  // namespace stride::imports

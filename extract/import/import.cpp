@@ -1,0 +1,211 @@
+#include "extract/import/import.h"
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "extract/import/formats/formats.h"
+#include "extract/import/parsing/people.h"
+#include "extract/import/parsing/text.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/file_kind.h"
+#include "extract/io/option_range.h"
+
+namespace stride::imports {
+namespace fs = std::filesystem;
+namespace {
+
+/// Which format a text is. Empty: none that we know.
+std::string sniff(std::string_view content, const std::string& file) {
+  const auto start = content.find_first_not_of(" \t\n");
+  if (start == std::string_view::npos) return "";
+  const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
+  if (content[start] == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
+  if (content[start] == '{') {
+    if (has("\"people\"")) return "openpose";
+    if (has("\"instance_info\"")) return "mmpose";
+    if (has("\"annotations\"")) return "coco";
+    return has("\"stride points\"") ? "json" : "";
+  }
+  if (content[start] == '<') return has("<annotations") ? "cvat" : "";
+  const TextTable table = read_text_table(content.substr(0, content.find('\n', 16384)), file);
+  if (table.lines.empty()) return "";
+  const std::vector<std::string>& cells = table.lines.front().cells;
+  const std::string& first = cells.front();
+  const auto names = [&](std::string_view name) {
+    return std::ranges::any_of(cells, [&](const auto& c) { return c.find(name) != c.npos; });
+  };
+  if (first == "scorer" || first == "bodyparts") return "deeplabcut";
+  if (first == "track" && names("frame_idx")) return "sleap";
+  if (first.starts_with("PathFileType")) return "trc";
+  if (first == "Time") return "kinovea";
+  if (names("_cam1_X")) return "dltdv";
+  return first == "frame" ? "csv" : "";
+}
+
+/// What to do with a file of another kind. Throws Error if it holds no text at all.
+void require_text(FileKind kind, const std::string& file) {
+  require(kind != FileKind::empty, "{}: is empty", file);
+  const auto cure = [&]() -> std::string_view {
+    switch (kind) {
+      case FileKind::hdf5:
+        return "DeepLabCut: analyze_videos(…, save_as_csv=True); SLEAP: export the analysis CSV";
+      case FileKind::kinovea_xml:
+        return "Kinovea: export the trajectories as CSV";
+      case FileKind::zip:
+        return "save the sheet as CSV";
+      case FileKind::c3d:
+        return "export TRC in pixels";
+      case FileKind::video:
+        return "give it as VIDEO";
+      default:
+        return "export the points as CSV or JSON";
+    }
+  };
+  require(!is_binary(kind) && kind != FileKind::kinovea_xml && kind != FileKind::svg,
+          "{}: is {}; expected points as text: {}", file, name(kind), cure());
+}
+
+ImportedFile read_openpose_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  require(!files.empty(),
+          "{}: a folder without .json files: expected OpenPose's NAME_000000000012_keypoints.json",
+          folder.string());
+  std::ranges::sort(files);
+  ImportedFile content;
+  for (const fs::path& file : files) {
+    const auto frame = last_number(file.stem().string());
+    require(frame.has_value(),
+            "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints"
+            ".json",
+            file.string());
+    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame).people;
+    content.people.insert(content.people.end(), more.begin(), more.end());
+  }
+  return content;
+}
+
+using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
+
+/// Every format by its name.
+const std::vector<std::pair<std::string, Reader>>& readers() {
+  static const std::vector<std::pair<std::string, Reader>> readers{
+      {"openpose",
+       [](std::string_view content, const std::string& file, const ImportOptions&) {
+         const auto frame = last_number(fs::path(file).stem().string());
+         return read_openpose(content, file, frame.value_or(0));
+       }},
+      {"deeplabcut", read_deeplabcut},
+      {"coco", read_coco},
+      {"alphapose", read_coco},
+      {"mmpose", read_mmpose},
+      {"sleap", read_sleap},
+      {"trc", read_trc},
+      {"cvat", read_cvat},
+      {"kinovea", read_kinovea},
+      {"dltdv", read_dltdv},
+      {"csv", read_own_csv},
+      {"json", [](std::string_view content, const std::string& file, const ImportOptions&) {
+         return read_own_json(content, file);
+       }}};
+  return readers;
+}
+
+}  // namespace
+
+const std::vector<std::string>& import_formats() {
+  static const std::vector<std::string> formats = [] {
+    std::vector<std::string> names;
+    for (const auto& [name, reader] : readers()) names.push_back(name);
+    return names;
+  }();
+  return formats;
+}
+
+Detections import_points(const fs::path& path, const ImportOptions& options) {
+  require(fs::exists(path), "{}: no such file or folder", path.string());
+  std::string format = options.format;
+  require(format.empty() || std::ranges::find(import_formats(), format) != import_formats().end(),
+          "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
+  ImportedFile content;
+  if (fs::is_directory(path)) {
+    require(format.empty() || format == "openpose",
+            "{}: is a folder; a folder is read as OpenPose's, not as {}", path.string(), format);
+    format = "openpose";
+    content = read_openpose_folder(path);
+  } else {
+    require(fs::is_regular_file(path), "{}: is not a file", path.string());
+    require_text(kind_of(path), path.string());
+    const std::string text = decoded_text(read_file(path), path.string());
+    if (format.empty()) format = sniff(text, path.string());
+    require(!format.empty(),
+            "{}:1: not a format of points that is known; expected one of {} (see --format)",
+            path.string(), fmt::join(import_formats(), ", "));
+    const auto reader = std::ranges::find(readers(), format, [](const auto& r) { return r.first; });
+    content = reader->second(text, path.string(), options);
+  }
+  require(!options.rate_was_given || format == "kinovea",
+          "--import-rate {}: files of {} say frames, not times: it has no effect, leave it out",
+          options.rate_hz, format);
+  Detections detections = take_person(std::move(content), options, path.string());
+  detections.format = format;
+  return detections;
+}
+
+void add_import_options(CLI::App& command, ImportOptions& options) {
+  command
+      .add_option("--format", options.format, "Format of the imported file, if not told from it")
+      ->check(CLI::IsMember(import_formats()));
+  command
+      .add_option("--person", options.person,
+                  "Which person of the imported file: 1 the largest sustained, 2 the next, …")
+      ->check(in_range(1, 1000));
+  command
+      .add_option("--min-confidence", options.min_confidence,
+                  "Imported points below this count as absent")
+      ->check(in_range(0, 1))
+      ->capture_default_str();
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--labels",
+          [&options](const std::vector<std::string>& pairs) {
+            for (const std::string& pair : pairs) {
+              const auto equals = pair.find('=');
+              require(equals != std::string::npos, "--labels {}: expected PART=LABEL", pair);
+              body_part(pair.substr(0, equals));
+              options.labels[pair.substr(0, equals)] = pair.substr(equals + 1);
+            }
+          },
+          "Names in the imported file, PART=LABEL,…")
+      ->delimiter(',');
+  command
+      .add_option("--y-up", options.y_up_height_px,
+                  "The imported file's y grows upwards; height of the video in px")
+      ->check(in_range(1, 100000));
+  command
+      .add_option_function<double>(
+          "--import-rate",
+          [&options](double rate_hz) {
+            options.rate_hz = rate_hz;
+            options.rate_was_given = true;
+          },
+          "Frame rate of the video in Hz, for files that say times and no frames")
+      ->check(in_range(0.1, 100000));
+  command
+      .add_option("--points-size", options.size_px,
+                  "Size of the picture that the points were made on, if not the video's: WIDTH "
+                  "HEIGHT")
+      ->expected(2)
+      ->check(in_range(1, 100000));
+  command
+      .add_option("--first-frame", options.first_frame,
+                  "Number that the imported file gives the video's first frame (default: told from "
+                  "the file: 0 or 1)")
+      ->check(in_range(-1e6, 1e9));
+}
+
+}  // namespace stride::imports

@@ -1,0 +1,259 @@
+#include "extract/skeleton/keypoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+
+namespace stride {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr std::string_view kFormat = "stride keypoints";
+constexpr std::array kStates{ClickState::seen, ClickState::estimated, ClickState::absent};
+
+/// The value of a key, or a sentence about what was expected there.
+template <typename T>
+T value(const Json& object, const char* key, const std::string& what, const char* expected) {
+  const auto found = object.find(key);
+  require(found != object.end(), "{}: \"{}\" is missing: must be {}", what, key, expected);
+  if constexpr (std::is_same_v<T, int>)
+    require(found->is_number() && std::abs(found->template get<double>()) <= 1e9,
+            "{}: {} = {}: must be {}", what, key, found->dump(), expected);
+  try {
+    return found->template get<T>();
+  } catch (const Json::exception&) {
+    throw Error(fmt::format("{}: {} = {}: must be {}", what, key, found->dump(), expected));
+  }
+}
+
+template <typename T>
+T value_or(const Json& object, const char* key, T otherwise, const std::string& what,
+           const char* expected) {
+  if (!object.contains(key) || object.at(key).is_null()) return otherwise;
+  return value<T>(object, key, what, expected);
+}
+
+Eigen::Vector2d point(const Json& json, const std::string& what) {
+  require(json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number(),
+          "{} = {}: must be [x, y] in pixels", what, json.dump());
+  return {json[0].get<double>(), json[1].get<double>()};
+}
+
+/// The keys that this program does not know, as text.
+std::string others(const Json& object, std::initializer_list<std::string_view> known) {
+  Json rest = Json::object();
+  for (const auto& [key, entry] : object.items())
+    if (std::find(known.begin(), known.end(), key) == known.end()) rest[key] = entry;
+  return rest.empty() ? std::string() : rest.dump();
+}
+
+void add_others(Json& object, const std::string& other_json) {
+  if (other_json.empty()) return;
+  const Json rest = Json::parse(other_json);
+  for (const auto& [key, entry] : rest.items())
+    if (!object.contains(key)) object[key] = entry;
+}
+
+ClickState click_state(const Json& click, const std::string& what) {
+  const auto text = value<std::string>(click, "state", what, "seen, estimated or absent");
+  for (const ClickState state : kStates)
+    if (text == name(state)) return state;
+  throw Error(fmt::format("{}: state = {}: must be seen, estimated or absent", what, text));
+}
+
+Click click_of(const Json& json, const std::string& what) {
+  require(json.is_object(), "{} = {}: must be an object with x, y and state", what, json.dump());
+  Click click;
+  click.state = click_state(json, what);
+  if (click.state != ClickState::absent)
+    click.p_px = {value<double>(json, "x", what, "a number of pixels"),
+                  value<double>(json, "y", what, "a number of pixels")};
+  click.other_json = others(json, {"x", "y", "state"});
+  return click;
+}
+
+void read_frame(const Json& json, const std::string& file, Keypoints& keypoints) {
+  require(json.is_object(), "{}: frames: {}: must be an object with frame, time_s and points", file,
+          json.dump());
+  const int number = value<int>(json, "frame", file + ": frames", "a frame number");
+  const std::string what = fmt::format("{}: frame {}", file, number);
+  require(!keypoints.frames.contains(number), "{} appears twice; keep one of them", what);
+  ClickedFrame& frame = keypoints.frames[number];
+  frame.time_s = value<double>(json, "time_s", what, "a time in seconds");
+  frame.other_json = others(json, {"frame", "time_s", "points"});
+  require(json.contains("points") && json.at("points").is_object(),
+          "{}: \"points\" must be an object of body parts", what);
+  for (const auto& [part_name, click] : json.at("points").items()) {
+    try {
+      frame[body_part(part_name)] = click_of(click, fmt::format("{}: {}", what, part_name));
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      if (message.starts_with(what)) throw;
+      throw Error(fmt::format("{}: {}", what, message));
+    }
+  }
+}
+
+Json parsed(const fs::path& file) {
+  try {
+    return Json::parse(read_file(file));
+  } catch (const Json::exception& error) {
+    throw Error(fmt::format("{}: not valid JSON: {}", file.string(), error.what()));
+  }
+}
+
+Json json_of(const Click& click) {
+  Json json;
+  if (click.state != ClickState::absent) json = {{"x", click.p_px.x()}, {"y", click.p_px.y()}};
+  json["state"] = name(click.state);
+  add_others(json, click.other_json);
+  return json;
+}
+
+Json json_of(int number, const ClickedFrame& frame) {
+  Json json{{"frame", number}, {"time_s", frame.time_s}, {"points", Json::object()}};
+  for (const BodyPart part : kBodyParts)
+    if (frame[part]) json["points"][std::string(name(part))] = json_of(*frame[part]);
+  add_others(json, frame.other_json);
+  return json;
+}
+
+Json json_of(const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); }
+
+bool is_side(const std::string& text) { return text.empty() || text == "right" || text == "left"; }
+
+}  // namespace
+
+std::string_view name(ClickState state) {
+  constexpr std::array<std::string_view, 3> kNames{"seen", "estimated", "absent"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+Keypoints load_keypoints(const fs::path& path) {
+  const std::string file = path.string();
+  const Json json = parsed(path);
+  require(json.is_object() && json.value("format", Json()) == kFormat,
+          "{}: not a file of clicks: expected \"format\": \"{}\"", file, kFormat);
+  const int version = value<int>(json, "version", file, "a whole number");
+  require(version >= 1 && version <= kVersion,
+          "{}: version {}: this program reads up to version {}; use a newer stride", file, version,
+          kVersion);
+  Keypoints k;
+  k.video = value<std::string>(json, "video", file, "the file name of the video");
+  k.video_sha256 = value<std::string>(json, "video_sha256", file, "64 hexadecimal digits");
+  k.width_px = value<int>(json, "width_px", file, "a whole number of pixels");
+  k.height_px = value<int>(json, "height_px", file, "a whole number of pixels");
+  k.direction = value_or<std::string>(json, "direction", "", file, "right or left");
+  k.near_leg = value_or<std::string>(json, "near_leg", "", file, "right or left");
+  k.slow_motion = value_or<double>(json, "slow_motion", 1, file, "a factor");
+  if (json.contains("treadmill") && !json.at("treadmill").is_null())
+    k.treadmill = value<bool>(json, "treadmill", file, "true or false");
+  if (json.contains("trim") && !json.at("trim").is_null()) {
+    const Json& trim = json.at("trim");
+    require(trim.is_object(), "{}: trim = {}: must name first_frame and last_frame", file,
+            trim.dump());
+    k.trim = {value<int>(trim, "first_frame", file + ": trim", "a frame number"),
+              value<int>(trim, "last_frame", file + ": trim", "a frame number")};
+  }
+  if (json.contains("floor_line_px") && !json.at("floor_line_px").is_null()) {
+    const Json& line = json.at("floor_line_px");
+    require(line.is_array() && line.size() == 2,
+            "{}: floor_line_px = {}: must be two points [[x, y], [x, y]]", file, line.dump());
+    k.floor = {point(line[0], file + ": floor_line_px"), point(line[1], file + ": floor_line_px")};
+  }
+  k.notes = value_or<std::string>(json, "notes", "", file, "a text");
+  require(json.contains("frames") && json.at("frames").is_array(),
+          "{}: \"frames\" must be a list of clicked frames", file);
+  for (const Json& frame : json.at("frames")) read_frame(frame, file, k);
+  k.other_json = others(
+      json, {"format", "version", "video", "video_sha256", "width_px", "height_px", "direction",
+             "near_leg", "slow_motion", "treadmill", "trim", "floor_line_px", "notes", "frames"});
+  check(k, file);
+  return k;
+}
+
+void check(const Keypoints& k, const std::string& what) {
+  require(k.width_px > 0 && k.height_px > 0, "{}: frame size {}×{} px: must be positive", what,
+          k.width_px, k.height_px);
+  require(is_side(k.direction), "{}: direction = {}: must be right or left", what, k.direction);
+  require(is_side(k.near_leg), "{}: near_leg = {}: must be right or left", what, k.near_leg);
+  require(std::isfinite(k.slow_motion) && k.slow_motion > 0,
+          "{}: slow_motion = {}: must be positive", what, k.slow_motion);
+  if (k.trim)
+    require(0 <= k.trim->first && k.trim->first <= k.trim->last,
+            "{}: trim {}–{}: must be two frame numbers in order", what, k.trim->first,
+            k.trim->last);
+  if (k.floor)
+    require(k.floor->from_px.allFinite() && k.floor->to_px.allFinite() &&
+                k.floor->from_px.x() != k.floor->to_px.x(),
+            "{}: floor_line_px: must be two points beside one another", what);
+  int before = -1;
+  double before_s = -1;
+  for (const auto& [frame, clicked] : k.frames) {
+    require(frame >= 0, "{}: frame {}: must not be negative", what, frame);
+    require(std::isfinite(clicked.time_s) && clicked.time_s >= 0,
+            "{}: frame {}: time_s = {}: must be a time from the start of the video", what, frame,
+            clicked.time_s);
+    require(clicked.time_s > before_s, "{}: frame {}: time_s = {}: must be later than frame {}",
+            what, frame, clicked.time_s, before);
+    for (const BodyPart part : kBodyParts) {
+      if (!clicked.placed(part)) continue;
+      const Eigen::Vector2d& p = clicked[part]->p_px;
+      require(p.allFinite(), "{}: frame {}: {} = ({}, {}): must be two numbers", what, frame,
+              name(part), p.x(), p.y());
+      require(
+          p.x() >= -0.5 && p.y() >= -0.5 && p.x() <= k.width_px - 0.5 && p.y() <= k.height_px - 0.5,
+          "{}: frame {}: {} = ({}, {}): outside the frame of {}×{} px; mark it as absent", what,
+          frame, name(part), p.x(), p.y(), k.width_px, k.height_px);
+    }
+    before = frame;
+    before_s = clicked.time_s;
+  }
+}
+
+std::string text_of(const Keypoints& k) {
+  Json json{{"format", kFormat},
+            {"version", kVersion},
+            {"video", k.video},
+            {"video_sha256", k.video_sha256},
+            {"width_px", k.width_px},
+            {"height_px", k.height_px},
+            {"direction", k.direction},
+            {"near_leg", k.near_leg},
+            {"slow_motion", k.slow_motion}};
+  if (k.treadmill) json["treadmill"] = *k.treadmill;
+  if (k.trim) json["trim"] = {{"first_frame", k.trim->first}, {"last_frame", k.trim->last}};
+  if (k.floor)
+    json["floor_line_px"] = Json::array({json_of(k.floor->from_px), json_of(k.floor->to_px)});
+  json["notes"] = k.notes;
+  add_others(json, k.other_json);
+  json["frames"] = Json::array();
+  for (const auto& [number, frame] : k.frames) json["frames"].push_back(json_of(number, frame));
+  return json.dump(1) + "\n";
+}
+
+void save(const Keypoints& k, const fs::path& file) {
+  check(k, file.string());
+  write_file_atomically(file, text_of(k));
+}
+
+void check_belongs_to(const Keypoints& keypoints, const fs::path& video) {
+  const std::string hash = sha256_of_file(video);
+  require(keypoints.video_sha256 == hash,
+          "{}: is another video than the one that was clicked ({}, SHA-256 {:.12}…, not {:.12}…); "
+          "use that one, or click this one anew",
+          video.string(), keypoints.video, keypoints.video_sha256, hash);
+}
+
+fs::path keypoints_file_of(const fs::path& video) {
+  return fs::path(video).replace_extension(".keypoints.json");
+}
+
+}  // namespace stride

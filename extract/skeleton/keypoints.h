@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "extract/skeleton/body_part.h"
+
+namespace stride {
+
+/// What a person said about a part on a frame.
+enum class ClickState {
+  seen,       // it is there
+  estimated,  // it is hidden, this is where it must be
+  absent      // it is hidden or outside the frame, and cannot be told
+};
+
+struct Click {
+  Eigen::Vector2d p_px = Eigen::Vector2d::Zero();  // as Point::p_px; meaningless if absent
+  ClickState state = ClickState::seen;
+  std::string other_json;  // keys of a later program, an object or empty
+};
+
+struct ClickedFrame {
+  double time_s = 0;  // as VideoFrame::time_s
+  std::array<std::optional<Click>, kBodyPartCount> clicks;
+  std::string other_json;
+
+  const std::optional<Click>& operator[](BodyPart part) const { return clicks[index(part)]; }
+  std::optional<Click>& operator[](BodyPart part) { return clicks[index(part)]; }
+  /// There is a click with a place: seen or estimated.
+  bool placed(BodyPart part) const {
+    const auto& click = clicks[index(part)];
+    return click && click->state != ClickState::absent;
+  }
+};
+
+struct FrameRange {
+  int first = 0, last = 0;  // both included
+};
+
+struct FloorLine {
+  Eigen::Vector2d from_px = Eigen::Vector2d::Zero(), to_px = Eigen::Vector2d::Zero();
+};
+
+/// What a person marked on a video: NAME.keypoints.json. Everything is matched by name, frame by
+/// its number, nothing by order.
+struct Keypoints {
+  std::string video;         // file name, without folder
+  std::string video_sha256;  // of the file's bytes
+  int width_px = 0, height_px = 0;
+  std::string direction;   // "right" or "left": the way the runner faces; empty: not said
+  std::string near_leg;    // "right" or "left": the leg nearer to the camera; empty: not said
+  double slow_motion = 1;  // seconds of video a second of the runner
+  std::optional<bool> treadmill;
+  std::optional<FrameRange> trim;  // only these frames are used
+  std::optional<FloorLine> floor;
+  std::string notes;
+  std::map<int, ClickedFrame> frames;  // by frame number
+  std::string other_json;              // keys of a later program, kept as they are
+};
+
+/// Reads NAME.keypoints.json. Errors name the file, the frame, the part, the value and the rule: a
+/// newer version, an unknown part, a click outside the frame, a number that is none.
+Keypoints load_keypoints(const std::filesystem::path& file);
+
+/// Checks as load_keypoints does, then replaces the file atomically. Throws Error.
+void save(const Keypoints& keypoints, const std::filesystem::path& file);
+
+/// What save() writes.
+std::string text_of(const Keypoints& keypoints);
+
+/// The rules of the format for values made by a program. Throws Error; `what` begins the sentence.
+void check(const Keypoints& keypoints, const std::string& what);
+
+/// Throws Error unless the keypoints were clicked on this very video (by SHA-256).
+void check_belongs_to(const Keypoints& keypoints, const std::filesystem::path& video);
+
+/// NAME.keypoints.json beside the video.
+std::filesystem::path keypoints_file_of(const std::filesystem::path& video);
+
+std::string_view name(ClickState state);
+
+}  // namespace stride

@@ -1,0 +1,116 @@
+#include "extract/skeleton/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "extract/io/error.h"
+#include "extract/io/table.h"
+
+namespace stride {
+namespace {
+
+constexpr int kVersion = 1;
+
+int whole(double value, const std::string& what) {
+  require(value >= 0 && value <= 1e9 && value == std::floor(value),
+          "{} = {}: must be a whole number, 0 or more", what, value);
+  return static_cast<int>(value);
+}
+
+}  // namespace
+
+Trajectory load_trajectory(const std::filesystem::path& file) {
+  const Table table =
+      load_table(file, "trajectory", kVersion, "make one from the video with `stride track`");
+  require(table.meta("unit") == "px", "{}: unit = '{}': a trajectory is in px", file.string(),
+          table.meta("unit"));
+  Trajectory trajectory;
+  trajectory.video = table.meta("video");
+  trajectory.video_sha256 = table.meta("video_sha256");
+  trajectory.width_px = whole(table.meta_number("width_px"), file.string() + ": width_px");
+  trajectory.height_px = whole(table.meta_number("height_px"), file.string() + ": height_px");
+  trajectory.rate_hz = table.meta_number("rate_hz");
+  trajectory.direction = table.meta("direction");
+  if (table.has_meta("floor_roll_rad"))
+    trajectory.floor_roll_rad = table.meta_number("floor_roll_rad");
+  require(std::isfinite(trajectory.rate_hz) && trajectory.rate_hz > 0,
+          "{}: rate_hz = {}: must be positive", file.string(), trajectory.rate_hz);
+
+  const std::size_t frame_column = table.column("frame"), time_column = table.column("time_s");
+  double previous_s = -std::numeric_limits<double>::infinity();
+  for (const auto& row : table.rows) {
+    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    frame.frame = whole(row[frame_column], file.string() + ": frame");
+    frame.time_s = row[time_column];
+    require(std::isfinite(frame.time_s) && frame.time_s > previous_s,
+            "{}: frame {}: time_s = {}: must grow from row to row", file.string(), frame.frame,
+            frame.time_s);
+    previous_s = frame.time_s;
+  }
+  if (table.has_meta("treadmill")) trajectory.treadmill = table.meta("treadmill") == "true";
+  if (table.has_column("camera_x")) {
+    const std::size_t x = table.column("camera_x"), y = table.column("camera_y"),
+                      residual = table.column("camera_residual");
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      trajectory.frames[i].camera_px = {table.rows[i][x], table.rows[i][y]};
+      trajectory.frames[i].camera_residual_px = table.rows[i][residual];
+    }
+  }
+  for (const BodyPart part : kBodyParts) {
+    const std::string prefix(name(part));
+    if (!table.has_column(prefix + "_x")) continue;
+    const std::size_t x = table.column(prefix + "_x"), y = table.column(prefix + "_y"),
+                      confidence = table.column(prefix + "_confidence");
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const auto& row = table.rows[i];
+      Point& point = trajectory.frames[i][part];
+      point.p_px = {row[x], row[y]};
+      point.confidence = std::isnan(row[confidence]) ? 0 : row[confidence];
+      require(std::isnan(row[x]) == std::isnan(row[y]),
+              "{}: frame {}: {} has x without y or y without x", file.string(),
+              trajectory.frames[i].frame, prefix);
+    }
+  }
+  return trajectory;
+}
+
+Table table_of(const Trajectory& trajectory) {
+  Table table;
+  table.format = "trajectory";
+  table.version = kVersion;
+  table.set_meta("unit", "px");
+  table.set_meta("video", trajectory.video);
+  table.set_meta("video_sha256", trajectory.video_sha256);
+  table.set_meta("width_px", fmt::format("{}", trajectory.width_px));
+  table.set_meta("height_px", fmt::format("{}", trajectory.height_px));
+  table.set_meta("rate_hz", fmt::format("{}", trajectory.rate_hz));
+  table.set_meta("direction", trajectory.direction);
+  if (std::isfinite(trajectory.floor_roll_rad))
+    table.set_meta("floor_roll_rad", fmt::format("{}", trajectory.floor_roll_rad));
+  if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");
+  const bool camera = std::ranges::any_of(
+      trajectory.frames, [](const TrajectoryFrame& f) { return f.camera_px.allFinite(); });
+  table.columns = {"frame", "time_s"};
+  for (const BodyPart part : kBodyParts)
+    for (const char* suffix : {"x", "y", "confidence"})
+      table.columns.push_back(fmt::format("{}_{}", name(part), suffix));
+  if (camera)
+    table.columns.insert(table.columns.end(), {"camera_x", "camera_y", "camera_residual"});
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    auto& row = table.rows.emplace_back(
+        std::vector<double>{static_cast<double>(frame.frame), frame.time_s});
+    for (const Point& point : frame.points)
+      row.insert(row.end(), {point.p_px.x(), point.p_px.y(), point.confidence});
+    if (camera)
+      row.insert(row.end(), {frame.camera_px.x(), frame.camera_px.y(), frame.camera_residual_px});
+  }
+  return table;
+}
+
+void save(const Trajectory& trajectory, const std::filesystem::path& file) {
+  save(table_of(trajectory), file);
+}
+
+}  // namespace stride

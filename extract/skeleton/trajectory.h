@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "extract/io/table.h"
+#include "extract/skeleton/body_part.h"
+
+namespace stride {
+
+/// A marked point on a frame, in pixels of the decoded frame: x right, y down, (0, 0) the centre of
+/// the top left pixel.
+struct Point {
+  Eigen::Vector2d p_px =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  // NaN: absent
+  double confidence = 0;  // 1 clicked … 0 nothing but the prior
+
+  bool present() const { return p_px.allFinite(); }
+};
+
+struct TrajectoryFrame {
+  int frame = 0;      // index in decoding order, from 0
+  double time_s = 0;  // of the runner: presentation time divided by the slow-motion factor
+  std::array<Point, kBodyPartCount> points;
+  /// Way of the background's centre since the frame before, and how well its corners agree; NaN:
+  /// not known.
+  Eigen::Vector2d camera_px = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double camera_residual_px = std::numeric_limits<double>::quiet_NaN();
+
+  const Point& operator[](BodyPart part) const { return points[index(part)]; }
+  Point& operator[](BodyPart part) { return points[index(part)]; }
+};
+
+/// Every part of one runner in every frame from the first click to the last: what `extract/` makes
+/// of a video.
+struct Trajectory {
+  std::string video;  // file name of the source
+  std::string video_sha256;
+  int width_px = 0, height_px = 0;
+  double rate_hz = 0;  // median frame rate of the runner's time
+  std::string
+      direction;  // "right" or "left": the way the runner faces in the image; empty: not known
+  double floor_roll_rad =
+      std::numeric_limits<double>::quiet_NaN();  // slope of a marked floor line; NaN: none
+  std::optional<bool> treadmill;  // the runner stays in place before a background at rest
+  std::vector<TrajectoryFrame> frames;
+};
+
+/// NAME.trajectory.csv: `# stride trajectory 1`, unit px, columns frame, time_s, <part>_x,
+/// <part>_y, <part>_confidence, and camera_x, camera_y, camera_residual where known. Errors name
+/// the file, and the cure where the file is a calibrated trajectory instead.
+Trajectory load_trajectory(const std::filesystem::path& file);
+void save(const Trajectory& trajectory, const std::filesystem::path& file);
+
+/// What save() writes.
+Table table_of(const Trajectory& trajectory);
+
+}  // namespace stride

@@ -1,0 +1,44 @@
+#include "extract/tracking/gaussian_process/samples.h"
+
+#include <algorithm>
+
+namespace stride::gaussian_process {
+
+using Eigen::Vector2d;
+
+/// How far a trunk moves about its path: a fraction of the leg. Were its scale taken from the
+/// clicks, a camera's drift would pass for motion that repeats wherever the clicks' spacing allows.
+constexpr double kTrunkSway = 0.015, kTrunkBob = 0.08, kDrift = 1.0;
+
+GroupData centred(Group group, std::vector<Sample> samples, double size_px) {
+  GroupData data{group, std::move(samples), Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
+  const auto places =
+      std::ranges::count_if(data.samples, [](const Sample& s) { return !s.is_displacement(); });
+  const double n = std::max(1.0, static_cast<double>(places));
+  for (const Sample& s : data.samples)
+    if (!s.is_displacement()) data.mean_px += s.p_px / n;
+  for (Sample& s : data.samples) {
+    if (s.is_displacement()) continue;
+    s.p_px -= data.mean_px;
+    data.scale_px += s.p_px.cwiseAbs2() / n;
+  }
+  if (group.paired()) {
+    data.scale_px = data.scale_px.cwiseSqrt().cwiseMax(1);
+  } else {
+    data.scale_px = size_px * Vector2d(kTrunkSway, kTrunkBob);
+    data.drift = (size_px * kDrift / data.scale_px.array()).square();
+  }
+  return data;
+}
+
+std::vector<Sample> samples_of(Group group, const Observations& observations, double origin_s) {
+  std::vector<Sample> samples;
+  for (const Observation& o : observations[index(group.right)])
+    samples.push_back({o.time_s - origin_s, 0, o.p_px, o.variance_px2, o.since_s - origin_s});
+  if (group.paired())
+    for (const Observation& o : observations[index(group.left)])
+      samples.push_back({o.time_s - origin_s, 1, o.p_px, o.variance_px2, o.since_s - origin_s});
+  return samples;
+}
+
+}  // namespace stride::gaussian_process

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "extract/skeleton/body_part.h"
+#include "extract/tracking/gaussian_process/gait_process.h"
+
+namespace stride::gaussian_process {
+
+/// One or two body parts that are modelled together: a joint of both legs, or a part of the trunk.
+struct Group {
+  BodyPart right, left;  // the same for the trunk
+  bool paired() const { return right != left; }
+};
+
+inline constexpr Group kPelvis{BodyPart::pelvis, BodyPart::pelvis};
+inline constexpr std::array kLegGroups{
+    Group{BodyPart::knee_r, BodyPart::knee_l}, Group{BodyPart::ankle_r, BodyPart::ankle_l},
+    Group{BodyPart::toe_r, BodyPart::toe_l}, Group{BodyPart::hip_r, BodyPart::hip_l}};
+inline constexpr Group kHead{BodyPart::head, BodyPart::head};
+
+/// An observation of a group: `left` 0 or 1.
+struct Sample {
+  double time_s;
+  int left;
+  Eigen::Vector2d p_px, variance_px2;
+  double since_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_displacement() const { return !std::isnan(since_s); }
+};
+
+/// The samples of a group about their mean, with the scale of its motion.
+struct GroupData {
+  Group group;
+  std::vector<Sample> samples;
+  Eigen::Vector2d mean_px, scale_px;  // scale: standard deviation of the motion that repeats
+  Eigen::Vector2d drift;              // of the trunk: variance of its path, in units of the scale
+};
+
+GroupData centred(Group group, std::vector<Sample> samples, double size_px);
+
+/// What was observed of a group; times from the origin.
+std::vector<Sample> samples_of(Group group, const Observations& observations, double origin_s);
+
+}  // namespace stride::gaussian_process

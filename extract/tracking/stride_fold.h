@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "extract/skeleton/stride_period.h"
+
+namespace stride::tracking {
+
+namespace stride {
+
+/// The motion of a joint over a stride that both legs share, the left half a stride behind: a
+/// Fourier series of four harmonics and an offset for each leg, fitted robustly.
+struct StrideFold {
+  double period_s = 0;
+  std::vector<std::array<Eigen::Matrix<double, 10, 1>, 2>> joints;  // coefficients of x and y
+  std::vector<double> spread_px;  // median distance of a joint from its fold
+
+  Eigen::Vector2d place(std::size_t joint, int side, double time_s) const;
+};
+
+/// Folds joints (outer index) seen at times (inner index). The period is the one that best explains
+/// what does not depend on which leg is called right, so that it can be trusted before the legs
+/// are. Nothing if there are too few frames.
+std::optional<StrideFold> fold_stride(const std::vector<std::vector<JointPair>>& joints,
+                                      const std::vector<double>& times_s);
+
+}  // namespace stride::tracking

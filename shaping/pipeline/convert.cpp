@@ -1,0 +1,290 @@
+#include "shaping/pipeline/convert.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "calibrate/calibrate.h"
+#include "calibrate/report/report.h"
+#include "calibrate/report/report_frames.h"
+#include "extract/annotation/journal.h"
+#include "extract/annotation/labelled_clip.h"
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/outputs.h"
+
+namespace stride::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kTrajectory = ".trajectory.csv";
+constexpr const char* kCalibrated = ".calibrated.csv";
+
+bool ends_with(const fs::path& file, std::string_view ending) {
+  return file.filename().string().ends_with(ending);
+}
+
+/// Whether it is for the decoder to try: anything but our tables.
+bool is_video(const fs::path& file) {
+  return !ends_with(file, kTrajectory) && !ends_with(file, kCalibrated);
+}
+
+/// Why a file of a folder is no input; empty if it is one.
+std::string left_out(const fs::path& file) {
+  const FileKind kind = kind_of(file);
+  if (fs::is_directory(file)) return "a folder";
+  if (kind != FileKind::video && kind != FileKind::binary) return std::string(name(kind));
+  if (!fs::exists(keypoints_file_of(file)))
+    return fmt::format("no {} beside it", keypoints_file_of(file).filename().string());
+  return {};
+}
+
+/// One input on its way through the pipeline.
+class Clip {
+ public:
+  Clip(fs::path input, const ConvertOptions& options, const SagittalModel& model)
+      : input_(std::move(input)), options_(options), model_(model) {
+    result_.name = clip_name(input_);
+    const auto own = options.by_clip.find(result_.name);
+    clip_ = own == options.by_clip.end() ? options.clip : own->second;
+  }
+
+  Converted convert() {
+    check_files();
+    // Before the inputs are compared with those of the last time.
+    if (is_video(input_)) annotation::fold_left_over_journal(keypoints_file_of(input_));
+    const std::string stamp = fingerprint();
+    if (!options_.again && is_done(stamp)) return result_;
+    const CalibratedTrajectory run = calibrated();
+    save(make_potential(run, clip_.keyframes, input_.string()), out(".potential.json"));
+    write_stamp(stamp);
+    return result_;
+  }
+
+  /// The same, with what went wrong as the result.
+  Converted convert_or_explain() {
+    try {
+      return convert();
+    } catch (const std::exception& error) {
+      result_.failed = true;
+      result_.verdict = error.what();
+      return result_;
+    }
+  }
+
+ private:
+  fs::path out(const char* ending) const { return options_.out / (result_.name + ending); }
+
+  void check_files() const {
+    const auto own = [&](const char* ending, bool is_input) {
+      return is_input ? fs::path() : out(ending);
+    };
+    check_outputs({input_, keypoints_file_of(input_), options_.model},
+                  {{"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
+                   {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
+                   {"-o", out(".report.txt"), FileKind::report},
+                   {"-o", out(".report.svg"), FileKind::svg},
+                   {"-o", out(".potential.json"), FileKind::potential}});
+  }
+
+  CalibratedTrajectory calibrated() {
+    if (ends_with(input_, kCalibrated)) {
+      const CalibratedTrajectory run = load_calibrated(input_);
+      result_.frames = static_cast<int>(run.samples.size());
+      describe(run, run.samples.back().time_s - run.samples.front().time_s);
+      return run;
+    }
+    Trajectory trajectory = ends_with(input_, kTrajectory) ? load_trajectory(input_) : tracked();
+    if (!clip_.direction.empty()) trajectory.direction = clip_.direction;
+    result_.frames = static_cast<int>(trajectory.frames.size());
+    const Calibration calibration = calibrate(trajectory, model_, fit::fit_options(clip_.size));
+    write_file_atomically(out(".report.txt"), report::report_text(trajectory, model_, calibration));
+    if (calibration.fit.ok && options_.pictures)
+      report::draw_report(
+          trajectory, model_, calibration,
+          is_video(input_) ? input_ : report::video_in(input_.parent_path(), trajectory),
+          out(".report.svg"));
+    const bool accepted = !calibration.verdict.refused || (clip_.force && calibration.fit.ok);
+    require(accepted, "{}", calibration.verdict.text());
+    describe(calibration.run, calibration.observations.duration_s);
+    save(calibration.run, out(kCalibrated));
+    return calibration.run;
+  }
+
+  Trajectory tracked() {
+    const tracking::LabelledClip labelled =
+        tracking::clicks_on(input_, keypoints_file_of(input_), clip_.slow_motion);
+    Trajectory trajectory = tracking::track(input_, labelled).trajectory;
+    save(trajectory, out(kTrajectory));
+    return trajectory;
+  }
+
+  void describe(const CalibratedTrajectory& run, double duration_s) {
+    result_.strides = duration_s / run.period_s;
+    result_.period_s = run.period_s;
+    result_.speed_m_s = run.speed_m_s;
+    result_.mm_per_px = 1000 * run.metres_per_pixel;
+    result_.rms_px = run.rms_px;
+    result_.rms_cm = 100 * run.rms_m;
+    result_.verdict = run.verdict;
+  }
+
+  /// Everything that the result depends on.
+  std::string fingerprint() const {
+    const KeyframeOptions& k = clip_.keyframes;
+    std::string all =
+        fmt::format("2 {} {} {} {} {} {} {} {} {} {} {} {} {} {}", sha256_of_file(input_),
+                    sha256_of_file(options_.model), clip_.size.height_m.value_or(0),
+                    clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
+                    clip_.direction, clip_.slow_motion, clip_.force, k.count, k.foot, k.symmetric,
+                    name(k.function), name(k.index), k.epsilon_m);
+    all += fmt::format(" {}", k.weight);
+    if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
+      all += " " + sha256_of_file(keypoints_file_of(input_));
+    return all;
+  }
+
+  bool is_done(const std::string& stamp) {
+    if (!fs::exists(out(".converted.json")) || !fs::exists(out(".potential.json"))) return false;
+    const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg"));
+    if (options_.pictures && !drawn) return false;
+    const auto json = nlohmann::json::parse(read_file(out(".converted.json")), nullptr, false);
+    if (!json.is_object() || json.value("inputs", "") != stamp) return false;
+    const auto number = [&](const char* key) {
+      return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");
+    };
+    result_.unchanged = true;
+    result_.frames = static_cast<int>(number("frames"));
+    result_.strides = number("strides");
+    result_.period_s = number("period_s");
+    result_.speed_m_s = number("speed_m_s");
+    result_.mm_per_px = number("mm_per_px");
+    result_.rms_px = number("rms_px");
+    result_.rms_cm = number("rms_cm");
+    result_.verdict = json.value("verdict", "");
+    return true;
+  }
+
+  void write_stamp(const std::string& stamp) const {
+    const nlohmann::ordered_json json{{"inputs", stamp},
+                                      {"frames", result_.frames},
+                                      {"strides", result_.strides},
+                                      {"period_s", result_.period_s},
+                                      {"speed_m_s", result_.speed_m_s},
+                                      {"mm_per_px", result_.mm_per_px},
+                                      {"rms_px", result_.rms_px},
+                                      {"rms_cm", result_.rms_cm},
+                                      {"verdict", result_.verdict}};
+    write_file_atomically(out(".converted.json"), json.dump(1) + "\n");
+  }
+
+  fs::path input_;
+  const ConvertOptions& options_;
+  const SagittalModel& model_;
+  ClipOptions clip_;
+  Converted result_;
+};
+
+}  // namespace
+
+std::string clip_name(const fs::path& input) {
+  for (const char* ending : {kTrajectory, kCalibrated}) {
+    const std::string file = input.filename().string();
+    if (file.ends_with(ending)) return file.substr(0, file.size() - std::string(ending).size());
+  }
+  return input.stem().string();
+}
+
+std::vector<fs::path> expand_inputs(const std::vector<fs::path>& given,
+                                    const std::function<void(const std::string&)>& tell) {
+  std::vector<fs::path> inputs;
+  for (const fs::path& each : given) {
+    require(fs::exists(each), "{}: no such file or folder", each.string());
+    if (!fs::is_directory(each)) {
+      const FileKind kind = kind_of(each);
+      require(!is_video(each) || kind == FileKind::video || kind == FileKind::binary,
+              "{}: is {}; must be a video, NAME.trajectory.csv or NAME.calibrated.csv",
+              each.string(), name(kind));
+      inputs.push_back(each);
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(each)) {
+      const std::string why = left_out(entry.path());
+      if (why.empty())
+        found.push_back(entry.path());
+      else if (tell)
+        tell(fmt::format("left out: {}: {}", entry.path().string(), why));
+    }
+    require(!found.empty(), "{}: no video with NAME.keypoints.json beside it", each.string());
+    std::ranges::sort(found);
+    inputs.insert(inputs.end(), found.begin(), found.end());
+  }
+  std::set<std::string> names;
+  for (const fs::path& each : inputs)
+    require(names.insert(clip_name(each)).second,
+            "{}: another input is named {} too: they would overwrite one another", each.string(),
+            clip_name(each));
+  return inputs;
+}
+
+std::vector<Converted> convert(const std::vector<fs::path>& inputs, const ConvertOptions& options) {
+  const SagittalModel model = sagittal_model(osim::load_osim(options.model));
+  std::vector<Converted> results(inputs.size());
+  std::atomic<std::size_t> next{0};
+  std::mutex reporting;
+  std::size_t done = 0, converted = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto left = [&]() -> std::string {
+    if (converted == 0 || done == inputs.size()) return "";
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return fmt::format(" (about {:.0f} s left)", spent.count() / static_cast<double>(converted) *
+                                                     static_cast<double>(inputs.size() - done));
+  };
+  const auto work = [&] {
+    for (std::size_t i = next++; i < inputs.size(); i = next++) {
+      results[i] = Clip(inputs[i], options, model).convert_or_explain();
+      const std::lock_guard lock(reporting);
+      ++done;
+      converted += results[i].unchanged || results[i].failed ? 0 : 1;
+      if (options.progress)
+        options.progress(fmt::format("{} of {}: {}: {}{}", done, inputs.size(), results[i].name,
+                                     results[i].unchanged ? "unchanged" : results[i].verdict,
+                                     left()));
+    }
+  };
+  const int wanted =
+      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<std::jthread> workers;
+  for (int i = 1; i < std::min<int>(wanted, static_cast<int>(inputs.size())); ++i)
+    workers.emplace_back(work);
+  work();
+  workers.clear();
+  return results;
+}
+
+std::string table_of(const std::vector<Converted>& results) {
+  std::size_t width = 4;
+  for (const Converted& row : results) width = std::max(width, row.name.size());
+  std::string text =
+      fmt::format("{:<{}}  frames  strides  period s  speed m/s  mm/px  rms px  rms cm  verdict\n",
+                  "clip", width);
+  for (const Converted& row : results)
+    text += row.failed ? fmt::format("{:<{}}  {:6}  failed: {}\n", row.name, width, row.frames,
+                                     row.verdict)
+                       : fmt::format(
+                             "{:<{}}  {:6}  {:7.2f}  {:8.4f}  {:9.2f}  {:5.2f}  {:6.2f}  {:6.2f}  "
+                             "{}{}\n",
+                             row.name, width, row.frames, row.strides, row.period_s, row.speed_m_s,
+                             row.mm_per_px, row.rms_px, row.rms_cm, row.verdict,
+                             row.unchanged ? " (unchanged)" : "");
+  return text;
+}
+
+}  // namespace stride::pipeline

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/fit_options.h"
+#include "shaping/keyframes.h"
+
+namespace stride::pipeline {
+
+/// What may differ from clip to clip.
+struct ClipOptions {
+  fit::RunnerSize size;
+  std::string direction;   // "right", "left"; empty: as the keypoints say
+  double slow_motion = 0;  // seconds of video a second of the runner; 0: as the keypoints say
+  bool force = false;      // convert a clip that was refused, where there is a fit
+  KeyframeOptions keyframes;
+};
+
+struct ConvertOptions {
+  std::filesystem::path out;
+  std::filesystem::path model = osim::default_model_file();
+  ClipOptions clip;                            // of every clip
+  std::map<std::string, ClipOptions> by_clip;  // instead, for the clip of that NAME
+  int threads = 0;                             // 0: one for each processor
+  bool pictures = true;
+  bool again = false;                                     // also what has not changed
+  std::function<void(const std::string& line)> progress;  // one call at a time
+};
+
+/// A line of the table of results.
+struct Converted {
+  std::string name;
+  bool failed = false, unchanged = false;
+  std::string verdict;  // or the error
+  int frames = 0;
+  double strides = 0, period_s = 0, speed_m_s = 0, mm_per_px = 0, rms_px = 0, rms_cm = 0;
+};
+
+/// The left half of the pipeline for each input: a video with NAME.keypoints.json beside it, a
+/// NAME.trajectory.csv, or a NAME.calibrated.csv (as an agent's own run). Writes, into `out`,
+/// NAME.trajectory.csv, NAME.calibrated.csv, NAME.report.txt, NAME.report.svg and
+/// NAME.potential.json; inputs that have not changed since are left alone. A failure of one is a
+/// line of its own and stops no other. Results in the order of the inputs.
+std::vector<Converted> convert(const std::vector<std::filesystem::path>& inputs,
+                               const ConvertOptions& options);
+
+/// Folders become the videos in them that were clicked; `tell` is told of each other file why it is
+/// left out. Throws Error for what does not exist or is no input, or for two inputs of one name.
+std::vector<std::filesystem::path> expand_inputs(
+    const std::vector<std::filesystem::path>& given,
+    const std::function<void(const std::string&)>& tell = {});
+
+/// NAME of an input.
+std::string clip_name(const std::filesystem::path& input);
+
+/// Reads a TOML file: keys of every clip at the top, and of one under [clip.NAME]. Keys: height,
+/// leg, scale, direction, slow-motion, force, keyframes, foot, symmetric, function, index, epsilon,
+/// weight. Errors name file, key and value.
+void load_convert_config(const std::filesystem::path& file, ConvertOptions& options);
+
+/// The results as a table for a person.
+std::string table_of(const std::vector<Converted>& results);
+
+}  // namespace stride::pipeline

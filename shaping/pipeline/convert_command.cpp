@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "extract/io/error.h"
+#include "extract/io/option_range.h"
+#include "shaping/commands.h"
+#include "shaping/pipeline/convert.h"
+
+namespace stride {
+namespace {
+
+struct ConvertCommand {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path config;
+  pipeline::ConvertOptions options;
+  std::string function = "pf3", index = "time";
+  bool no_pictures = false, asymmetric = false;
+};
+
+void run(ConvertCommand command) {
+  pipeline::ConvertOptions& options = command.options;
+  KeyframeOptions& keyframes = options.clip.keyframes;
+  keyframes.function = inverse_distance(command.function);
+  keyframes.index = potential_index(command.index);
+  keyframes.symmetric = !command.asymmetric;
+  options.pictures = !command.no_pictures;
+  if (!command.config.empty()) pipeline::load_convert_config(command.config, options);
+  options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+
+  const auto inputs = pipeline::expand_inputs(command.inputs, options.progress);
+  const std::vector<pipeline::Converted> results = pipeline::convert(inputs, options);
+  fmt::print("{}", pipeline::table_of(results));
+  const auto failures = std::ranges::count_if(results, &pipeline::Converted::failed);
+  require(failures == 0, "{} of {} clips were not converted, see the table", failures,
+          results.size());
+  fmt::print("{}\n", results.size() == 1
+                         ? (options.out / (results[0].name + ".potential.json")).string()
+                         : options.out.string());
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  const auto command = std::make_shared<ConvertCommand>();
+  CLI::App* convert = app.add_subcommand(
+      "convert", "the left half of the pipeline: videos with their clicks become potential files");
+  pipeline::ConvertOptions& options = command->options;
+  pipeline::ClipOptions& clip = options.clip;
+  convert
+      ->add_option("inputs", command->inputs,
+                   "videos (NAME.keypoints.json beside them), NAME.trajectory.csv, "
+                   "NAME.calibrated.csv, or folders of videos")
+      ->required();
+  convert->add_option("-o,--out", options.out, "folder for the results")->required();
+  convert->add_option("--settings", command->config,
+                      "TOML file: options of all clips, and of one under [clip.NAME]");
+  convert->add_option("--model", options.model, "OpenSim model (.osim)");
+  convert->add_option("--height", clip.size.height_m, "standing height of the runner, m");
+  convert->add_option("--leg", clip.size.leg_m, "the runner's hip to ankle, m");
+  convert->add_option("--scale", clip.size.metres_per_pixel, "metres per pixel");
+  convert->add_option("--slow-motion", clip.slow_motion, "seconds of video a second of the runner")
+      ->check(in_range(0.05, 100));
+  convert->add_option("--direction", clip.direction, "right or left: the way the runner faces")
+      ->check(CLI::IsMember({"right", "left"}));
+  convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even")
+      ->check(in_range(2, 200));
+  convert->add_option("--foot", clip.keyframes.foot, "ankle or toe: the foot of the potential")
+      ->check(CLI::IsMember({"ankle", "toe"}));
+  convert->add_option("--function", command->function, "inverse distance: pf1, pf2, pf3");
+  convert->add_option("--index", command->index, "keyframe by time, or nearest");
+  convert->add_option("--epsilon", clip.keyframes.epsilon_m, "of the inverse distance, m")
+      ->check(in_range(1e-6, 10));
+  convert->add_option("--weight", clip.keyframes.weight, "of the potential")
+      ->check(in_range(1e-9, 1e9));
+  convert->add_flag("--keep-asymmetry", command->asymmetric,
+                    "do not make the legs mirror images of one another");
+  convert->add_option("--threads", options.threads, "clips at a time (default: processors)")
+      ->check(in_range(1, 1024));
+  convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");
+  convert->add_flag("--again", options.again, "convert also what has not changed");
+  convert->add_flag("--force", clip.force, "convert clips that were refused, where there is a fit");
+  convert->callback([command] { run(*command); });
+}
+
+}  // namespace stride

@@ -1,0 +1,59 @@
+#include "extract/skeleton/trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include "extract/io/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+TEST(Trajectory, ReadsBackWhatWasSaved) {
+  const TemporaryFolder folder;
+  Trajectory trajectory;
+  trajectory.video = "a.mp4";
+  trajectory.video_sha256 = "00";
+  trajectory.width_px = 640;
+  trajectory.height_px = 360;
+  trajectory.rate_hz = 29.97;
+  trajectory.direction = "left";
+  trajectory.frames.resize(2);
+  trajectory.frames[0][BodyPart::knee_r] = {{1.25, 2.5}, 0.75};
+  trajectory.frames[1].frame = 1;
+  trajectory.frames[1].time_s = 1 / 29.97;
+  save(trajectory, folder / "t.csv");
+  const Trajectory loaded = load_trajectory(folder / "t.csv");
+  EXPECT_EQ(loaded.direction, "left");
+  EXPECT_EQ(loaded.frames[0][BodyPart::knee_r].p_px, Eigen::Vector2d(1.25, 2.5));
+  EXPECT_EQ(loaded.frames[0][BodyPart::knee_r].confidence, 0.75);
+  EXPECT_FALSE(loaded.frames[0][BodyPart::knee_l].present());
+  EXPECT_EQ(loaded.frames[1].time_s, 1 / 29.97);
+}
+
+TEST(Trajectory, RefusesSizesAndFramesThatAreNoWholeNumbers) {
+  const TemporaryFolder folder;
+  const auto load = [&](const char* width, const char* row) {
+    write_file_atomically(
+        folder / "t.csv",
+        fmt::format("# stride trajectory 1\n# unit: px\n# video: a\n# video_sha256: 0\n# width_px: "
+                    "{}\n# height_px: 9\n# rate_hz: 30\n# direction: \nframe,time_s\n{}\n",
+                    width, row));
+    return load_trajectory(folder / "t.csv");
+  };
+  EXPECT_EQ(load("640", "3,0.1").frames[0].frame, 3);
+  EXPECT_ERROR(load("", "3,0.1"), "t.csv: width_px = nan: must be a whole number");
+  EXPECT_ERROR(load("640", ",0.1"), "t.csv: frame = nan: must be a whole number");
+  EXPECT_ERROR(load("640", "3,inf"), "frame 3: time_s = inf: must grow");
+}
+
+TEST(BodyPart, KnowsItsNamesAndMirrorImages) {
+  for (const BodyPart part : kBodyParts) {
+    EXPECT_EQ(body_part(name(part)), part);
+    EXPECT_EQ(mirrored(mirrored(part)), part);
+  }
+  EXPECT_ERROR(body_part("elbow"), "body part 'elbow': not known; use one of pelvis, knee_r");
+}
+
+}  // namespace
+}  // namespace stride

@@ -1,0 +1,165 @@
+#include "shaping/pipeline/convert.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "extract/annotation/journal.h"
+#include "extract/io/file.h"
+#include "extract/skeleton/trajectory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+const std::filesystem::path kVideos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
+
+/// The rendered runner's true points as a trajectory to convert.
+void put_human(const TemporaryFolder& folder) {
+  std::filesystem::copy_file(kVideos / "human.truth.csv", folder / "human.trajectory.csv");
+}
+
+pipeline::ConvertOptions into(const TemporaryFolder& folder) {
+  pipeline::ConvertOptions options;
+  options.out = folder / "out";
+  options.pictures = false;
+  return options;
+}
+
+TEST(Convert, MakesAPotentialOfARunner) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  const auto results = pipeline::convert({folder / "human.trajectory.csv"}, into(folder));
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_FALSE(results[0].failed) << results[0].verdict;
+  const Potential potential = load_potential(folder / "out" / "human.potential.json");
+  EXPECT_NEAR(potential.period_s, 0.6867, 0.003);
+  EXPECT_EQ(potential.keyframes.size(), 8u);
+  EXPECT_EQ(potential.source, "human.mp4");
+}
+
+TEST(Convert, LeavesAloneWhatHasNotChanged) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  const std::vector<std::filesystem::path> inputs{folder / "human.trajectory.csv"};
+  pipeline::ConvertOptions options = into(folder);
+  EXPECT_FALSE(pipeline::convert(inputs, options)[0].unchanged);
+  const auto again = pipeline::convert(inputs, options);
+  EXPECT_TRUE(again[0].unchanged);
+  EXPECT_NEAR(again[0].period_s, 0.6867, 0.003);
+  options.clip.keyframes.weight = 2;
+  EXPECT_FALSE(pipeline::convert(inputs, options)[0].unchanged);
+  // A run on the model's proportions, as an agent's own, is converted too, and to the same stride.
+  const auto run = pipeline::convert({folder / "out" / "human.calibrated.csv"}, [&] {
+    pipeline::ConvertOptions other = options;
+    other.out = folder / "other";
+    return other;
+  }());
+  EXPECT_FALSE(run[0].failed) << run[0].verdict;
+  EXPECT_EQ(read_file(folder / "other" / "human.potential.json"),
+            read_file(folder / "out" / "human.potential.json"));
+}
+
+TEST(Convert, GoesOnWhereItWasKilled) {
+  const TemporaryFolder folder;
+  std::vector<std::filesystem::path> inputs;
+  for (const char* name : {"a", "b"}) {
+    inputs.push_back(folder / (std::string(name) + ".trajectory.csv"));
+    std::filesystem::copy_file(kVideos / "human.truth.csv", inputs.back());
+  }
+  // Killed as soon as the first clip is done: the second is then under way.
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    pipeline::ConvertOptions options = into(folder);
+    options.threads = 1;
+    options.progress = [](const std::string&) { ::_exit(0); };
+    pipeline::convert(inputs, options);
+  }
+  ::waitpid(killed, nullptr, 0);
+  std::string progress;
+  pipeline::ConvertOptions options = into(folder);
+  options.threads = 1;
+  options.progress = [&](const std::string& line) { progress += line + "\n"; };
+  const auto results = pipeline::convert(inputs, options);
+  EXPECT_TRUE(results[0].unchanged);
+  EXPECT_FALSE(results[1].unchanged || results[1].failed) << results[1].verdict;
+  EXPECT_THAT(progress, testing::HasSubstr("1 of 2: a: unchanged"));
+  EXPECT_THAT(progress, testing::HasSubstr("2 of 2: b: ok"));
+}
+
+TEST(Convert, SaysHowLongItWillTake) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  std::filesystem::copy_file(kVideos / "human.truth.csv", folder / "other.trajectory.csv");
+  std::vector<std::string> progress;
+  pipeline::ConvertOptions options = into(folder);
+  options.threads = 1;
+  options.progress = [&](const std::string& line) { progress.push_back(line); };
+  pipeline::convert({folder / "human.trajectory.csv", folder / "other.trajectory.csv"}, options);
+  ASSERT_EQ(progress.size(), 2u);
+  EXPECT_THAT(progress[0], testing::MatchesRegex("1 of 2: human: ok .about [0-9]+ s left."));
+  EXPECT_THAT(progress[1], testing::Not(testing::HasSubstr("left")));
+}
+
+TEST(Convert, TakesTheClicksThatAKilledWindowLeft) {
+  const TemporaryFolder folder;
+  for (const char* name : {"human.mp4", "human.keypoints.json"})
+    std::filesystem::copy_file(kVideos / name, folder / name);
+  const auto clicks = folder / "human.keypoints.json";
+  EXPECT_FALSE(pipeline::convert({folder / "human.mp4"}, into(folder))[0].failed);
+  const auto frame = load_keypoints(clicks).frames.begin()->first;
+  const pid_t window = ::fork();
+  if (window == 0) {
+    annotation::AnnotationJournal journal(clicks, Keypoints());
+    const Click click{{1.5, 2.5}, ClickState::seen, ""};
+    journal.apply({"a click", {{frame, 0, BodyPart::head, click}}, {}});
+    ::_exit(0);
+  }
+  ::waitpid(window, nullptr, 0);
+  EXPECT_FALSE(load_keypoints(clicks).frames.at(frame)[BodyPart::head]);
+  EXPECT_FALSE(pipeline::convert({folder / "human.mp4"}, into(folder))[0].unchanged);
+  EXPECT_EQ(load_keypoints(clicks).frames.at(frame)[BodyPart::head]->p_px.x(), 1.5);
+}
+
+TEST(Convert, OneFailureStopsNoOther) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  write_file_atomically(folder / "garbage.trajectory.csv", "not a table of ours\n1\n");
+  const auto results = pipeline::convert(
+      {folder / "garbage.trajectory.csv", folder / "human.trajectory.csv"}, into(folder));
+  EXPECT_TRUE(results[0].failed);
+  EXPECT_THAT(results[0].verdict, testing::HasSubstr("not a file of ours"));
+  EXPECT_FALSE(results[1].failed);
+  EXPECT_THAT(pipeline::table_of(results), testing::HasSubstr("failed: "));
+}
+
+TEST(Convert, NamesAFileThatItCannotUse) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a.txt", "x");
+  EXPECT_ERROR(pipeline::expand_inputs({folder / "a.txt"}), "a.txt: must be a video");
+  EXPECT_ERROR(pipeline::expand_inputs({folder / "none.mp4"}), "none.mp4: no such file");
+  EXPECT_ERROR(pipeline::expand_inputs({folder.path()}), "no video with NAME.keypoints.json");
+}
+
+TEST(Convert, ReadsSettingsOfAllClipsAndOfOne) {
+  const TemporaryFolder folder;
+  pipeline::ConvertOptions options;
+  write_file_atomically(folder / "a.toml",
+                        "weight = 0.5\nfunction = \"pf2\"\n[clip.human]\nheight = 1.8\n");
+  pipeline::load_convert_config(folder / "a.toml", options);
+  EXPECT_EQ(options.clip.keyframes.weight, 0.5);
+  EXPECT_FALSE(options.clip.size.height_m);
+  const pipeline::ClipOptions& human = options.by_clip.at("human");
+  EXPECT_EQ(human.size.height_m, 1.8);
+  EXPECT_EQ(human.keyframes.function, InverseDistance::pf2);
+  write_file_atomically(folder / "b.toml", "wieght = 0.5\n");
+  EXPECT_ERROR(pipeline::load_convert_config(folder / "b.toml", options),
+               "key 'wieght' is not known; use");
+  write_file_atomically(folder / "c.toml", "function = \"pf9\"\n");
+  EXPECT_ERROR(pipeline::load_convert_config(folder / "c.toml", options),
+               "function = 'pf9': must be one of");
+}
+
+}  // namespace
+}  // namespace stride

@@ -1,0 +1,78 @@
+#include "train/experiments/experiment_file.h"
+
+#include <gtest/gtest.h>
+
+#include "extract/io/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+constexpr const char* kHeading = "title = \"T\"\npreset = \"shaping\"\ndecisions = 4000\n";
+
+experiments::ExperimentFile load(const TemporaryFolder& folder, const std::string& text,
+                                 const std::vector<std::string>& settings = {}) {
+  write_file_atomically(folder / "experiment.toml", text);
+  return experiments::load_experiment(folder / "experiment.toml", settings);
+}
+
+TEST(ExperimentFile, GivesTheArmsInTheOrderOfTheFile) {
+  const TemporaryFolder folder;
+  const experiments::ExperimentFile experiment =
+      load(folder, std::string(kHeading) + "seeds = 3\n[z]\npotential = \"\"\n[a]\n" +
+                       "potential = \"../p/h.potential.json\"\nshaping.index = \"nearest\"\n" +
+                       "agent.actor_hidden = [32, 16]\n");
+  EXPECT_EQ(experiment.title, "T");
+  EXPECT_EQ(experiment.decisions, 4000);
+  EXPECT_EQ(experiment.seeds, 3);
+  ASSERT_EQ(experiment.arms.size(), 2u);
+  EXPECT_EQ(experiment.arms[0].name, "z");
+  EXPECT_TRUE(experiment.arms[0].potential.empty());
+  EXPECT_EQ(experiment.arms[1].potential, (folder / "../p/h.potential.json").lexically_normal());
+  EXPECT_EQ(experiment.arms[1].train.shaping.index, "nearest");
+  EXPECT_EQ(experiment.arms[1].train.agent.actor_hidden, (std::vector<int>{32, 16}));
+  EXPECT_EQ(experiment.arms[1].train.run.decisions, 4000);
+  EXPECT_EQ(experiment.arms[0].train.shaping.index, "");
+}
+
+TEST(ExperimentFile, SettingsOfTheCommandLineYieldToThoseOfAnArm) {
+  const TemporaryFolder folder;
+  const experiments::ExperimentFile experiment =
+      load(folder, std::string(kHeading) + "[a]\nagent.gamma = 0.9\n[b]\npotential = \"\"\n",
+           {"agent.gamma=0.95", "run.decisions=100"});
+  EXPECT_EQ(experiment.arms[0].train.agent.gamma, 0.9);
+  EXPECT_EQ(experiment.arms[1].train.agent.gamma, 0.95);
+  EXPECT_EQ(experiment.decisions, 100);
+}
+
+TEST(ExperimentFile, ErrorsNameFileKeyAndCure) {
+  const TemporaryFolder folder;
+  const std::string arm = "[a]\npotential = \"\"\n";
+  EXPECT_ERROR(load(folder, "title = \"T\"\n" + arm), "experiment.toml: preset is missing");
+  EXPECT_ERROR(load(folder, kHeading), "has no arm");
+  EXPECT_ERROR(load(folder, "colour = 1\n" + std::string(kHeading) + arm), "colour: unknown key");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = \"many\"\n" + arm),
+               "must be a whole number");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + arm + "agent.gama = 0.9\n"),
+               "experiment.toml: [a]: agent.gama: unknown key; did you mean agent.gamma?");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + arm + "agent.gamma = 2\n"),
+               "agent.gamma = 2: must be in [0, 1)");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = 0\n" + arm), "seeds");
+  EXPECT_ERROR(experiments::experiment_file("baseline-vs-nothing"),
+               "must be one of baseline-vs-shaping");
+}
+
+TEST(ExperimentFile, TheOnesThatComeWithTheProgramCanBeRead) {
+  const auto experiments =
+      experiments::experiment_file("baseline-vs-shaping").parent_path().parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(experiments)) {
+    if (!std::filesystem::exists(entry.path() / "experiment.toml")) continue;
+    for (const experiments::ExperimentArm& arm :
+         experiments::load_experiment(entry.path() / "experiment.toml").arms)
+      EXPECT_TRUE(arm.potential.empty() || std::filesystem::exists(arm.potential)) << arm.name;
+  }
+}
+
+}  // namespace
+}  // namespace stride

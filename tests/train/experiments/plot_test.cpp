@@ -1,0 +1,149 @@
+#include "train/experiments/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "extract/io/file.h"
+#include "extract/io/table.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+#include "train/experiments/experiment_report.h"
+#include "train/training/curve.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run whose distance grows by `slope` metres a thousand decisions.
+void write_run(const fs::path& run, double slope) {
+  Table curve = training::new_curve(), timing = training::new_timing();
+  for (int i = 0; i <= 10; ++i) {
+    std::vector<double> row(curve.columns.size(), 0.0);
+    row[0] = 1000 * i;
+    row[1] = 30 * i;
+    row[6] = slope * i;
+    curve.rows.push_back(row);
+    timing.rows.push_back({1000.0 * i, 60.0 * i, 1, 1});
+  }
+  save(curve, run / "curve.csv");
+  save(timing, run / "timing.csv");
+}
+
+TEST(Plot, RunsNamedByANumberAreSeedsOfTheArmAbove) {
+  const std::vector<experiments::Arm> arms = experiments::arms_of(
+      {"x/baseline/1", "x/shaped/1", "x/baseline/2/", "runs/alone", "runs/other"});
+  ASSERT_EQ(arms.size(), 4u);
+  EXPECT_EQ(arms[0].label, "baseline");
+  EXPECT_EQ(arms[0].runs.size(), 2u);
+  EXPECT_EQ(arms[2].label, "alone");
+}
+
+TEST(Plot, DrawsMeanAndStandardErrorAndLeavesScriptAndFigures) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  experiments::plot(experiments::arms_of({folder / "arm" / "1", folder / "arm" / "2"}),
+                    {.out = folder / "p" / "figure"});
+  const Table figures = load_csv([&] {
+    write_file_atomically(folder / "with_head.csv",
+                          "x,mean,se\n" + read_file(folder / "p" / "figure.csv"));
+    return folder / "with_head.csv";
+  }());
+  EXPECT_EQ(figures.rows.back()[0], 10000);
+  EXPECT_NEAR(figures.rows.back()[1], 20, 1e-12);
+  EXPECT_NEAR(figures.rows.back()[2], 10, 1e-12);  // |30 − 10| / 2
+  EXPECT_NEAR(figures.rows[100][1], 2 * figures.rows[100][0] / 1000, 1e-9);
+  EXPECT_THAT(read_file(folder / "p" / "figure.svg"), ::testing::HasSubstr("arm (2 seeds)"));
+  EXPECT_EQ(read_file(folder / "p" / "figure.png").substr(1, 3), "PNG");
+  EXPECT_TRUE(fs::exists(folder / "p" / "figure.gnuplot"));
+}
+
+TEST(Plot, WatchedItIsDrawnAnewWhenACurveGrows) {
+  TemporaryFolder folder;
+  std::atomic<bool> stop = false;
+  std::thread watcher([&] {
+    experiments::watch(experiments::arms_of({folder / "run"}), {.out = folder / "figure"}, stop,
+                       nullptr);  // no curve yet
+  });
+  const auto drawn_within_seconds = [&](const std::string& what) {
+    for (int i = 0; i < 500; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+      if (fs::exists(folder / "figure.png") &&
+          read_file(folder / "figure.csv").find(what) != std::string::npos)
+        return true;
+    return false;
+  };
+  write_run(folder / "run", 1);
+  EXPECT_TRUE(drawn_within_seconds("\n10000,10,0\n"));
+  write_run(folder / "run", 2);
+  EXPECT_TRUE(drawn_within_seconds("\n10000,20,0\n"));
+  stop = true;
+  watcher.join();
+}
+
+TEST(Plot, ErrorsNameTheRunAndTheColumn) {
+  TemporaryFolder folder;
+  write_run(folder / "a", 1);
+  EXPECT_ERROR(experiments::plot(experiments::arms_of({folder / "b"}), {.out = folder / "p"}),
+               "curve.csv: no such file");
+  EXPECT_ERROR(experiments::plot(experiments::arms_of({folder / "a"}),
+                                 {.column = "speed", .out = folder / "p"}),
+               "column 'speed' is missing");
+  EXPECT_ERROR(experiments::plot(experiments::arms_of({folder / "a"}),
+                                 {.against = "time", .out = folder / "p"}),
+               "--against time");
+}
+
+TEST(Experiment, DistancesAreThoseOfTheTwentiethOfTheBudgetThatEndsThere) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  const auto results = experiments::results_of(
+      experiments::arms_of({folder / "arm" / "1", folder / "arm" / "2"}), 10'000);
+  ASSERT_EQ(results.size(), 1u);
+  for (std::size_t k = 0; k < experiments::kBudgetShares.size(); ++k) {
+    EXPECT_DOUBLE_EQ(results[0].distance_m[k][0], 10 * experiments::kBudgetShares[k]);
+    EXPECT_DOUBLE_EQ(results[0].distance_m[k][1], 30 * experiments::kBudgetShares[k]);
+  }
+}
+
+TEST(Experiment, WhereNothingWasEvaluatedNearAShareItIsTheLastBefore) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);  // evaluated every 1000, 4 at 4000
+  const auto results = experiments::results_of(experiments::arms_of({folder / "arm" / "1"}), 9'400);
+  EXPECT_DOUBLE_EQ(results[0].distance_m[3][0], 4);  // half of it: 4277 to 4747
+  const auto short_budget =
+      experiments::results_of(experiments::arms_of({folder / "arm" / "1"}), -1);
+  EXPECT_THAT(experiments::experiment_report("T", short_budget, -1, ""),
+              ::testing::HasSubstr("| arm | – |"));
+}
+
+TEST(Experiment, TimesAreThoseOfTheFirstEvaluationThatReachedADistance) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  write_run(folder / "arm" / "2", 3);
+  const auto results = experiments::results_of(
+      experiments::arms_of({folder / "arm" / "1", folder / "arm" / "2"}), 10'000);
+  EXPECT_EQ(results[0].reached[0][0]->decisions, 5000);  // 5 m
+  EXPECT_EQ(results[0].reached[0][0]->wall_s, 300);
+  EXPECT_EQ(results[0].reached[1][1]->decisions, 4000);  // 10 m: 12 is the first
+  EXPECT_FALSE(results[0].reached[2][0]);                // 15 m: ends at 10
+  EXPECT_THAT(experiments::experiment_report("Title", results, 10'000, "stride experiment"),
+              ::testing::HasSubstr("| arm | 4 ± 1 k; 3.5 ± 1.5 min"));
+}
+
+TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {
+  const experiments::PairedRatio same = experiments::paired_ratio({2, 4, 8}, {1, 2, 4});
+  EXPECT_NEAR(same.ratio, 2, 1e-12);
+  EXPECT_NEAR(same.low, 2, 1e-9);
+  const experiments::PairedRatio spread =
+      experiments::paired_ratio({std::exp(1.0), std::exp(3.0)}, {1, 1});
+  EXPECT_NEAR(std::log(spread.ratio), 2, 1e-12);  // t = 12.706, s/√2 = 1
+  EXPECT_NEAR(std::log(spread.high), 2 + 12.706, 1e-9);
+  EXPECT_TRUE(std::isnan(experiments::paired_ratio({1}, {1}).ratio));
+}
+
+}  // namespace
+}  // namespace stride

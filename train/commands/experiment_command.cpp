@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "extract/io/error.h"
+#include "train/experiments/experiment.h"
+#include "train/training/interrupt.h"
+
+namespace stride {
+namespace {
+
+struct Request {
+  std::string name, potential;
+  std::vector<std::string> settings;
+  std::optional<int> seeds;
+  std::optional<std::int64_t> decisions;
+  experiments::ExperimentOptions options;
+};
+
+/// The command that repeats it.
+std::string command_of(const Request& request) {
+  std::string command = fmt::format("stride experiment {}", request.name);
+  if (!request.potential.empty()) command += fmt::format(" --potential {}", request.potential);
+  if (request.seeds) command += fmt::format(" --seeds {}", *request.seeds);
+  if (request.decisions) command += fmt::format(" --decisions {}", *request.decisions);
+  for (const std::string& setting : request.settings) command += fmt::format(" --set {}", setting);
+  return command;
+}
+
+/// `potential` instead of the file that the first shaped arm has, wherever that is used.
+void replace_potential(const std::filesystem::path& potential,
+                       std::vector<experiments::ExperimentArm>& arms) {
+  const auto shaped = std::ranges::find_if(
+      arms, [](const experiments::ExperimentArm& arm) { return !arm.potential.empty(); });
+  require(shaped != arms.end(), "--potential {}: no arm has one", potential.string());
+  const std::filesystem::path replaced = shaped->potential;
+  for (experiments::ExperimentArm& arm : arms)
+    if (arm.potential == replaced) arm.potential = potential;
+}
+
+void experiment_as_requested(const Request& request) {
+  experiments::ExperimentOptions options = request.options;
+  std::vector<std::string> settings = request.settings;
+  if (request.decisions) settings.push_back(fmt::format("run.decisions={}", *request.decisions));
+  const std::filesystem::path file = experiments::experiment_file(request.name);
+  options.experiment = experiments::load_experiment(file, settings);
+  if (request.seeds) options.experiment.seeds = *request.seeds;
+  if (!request.potential.empty()) replace_potential(request.potential, options.experiment.arms);
+  if (options.runs.empty())
+    options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
+  if (options.report.empty()) options.report = options.runs / "report";
+  options.command = command_of(request);
+  if (experiments::run_experiment(options, training::stopped_by({SIGINT, SIGTERM}), stderr))
+    fmt::print("{}\n", (options.report / "results.md").string());
+  else
+    fmt::print("stopped and saved; give the same command again to continue\n");
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "experiment", "Train the arms of an experiment over seeds and compare their curves");
+  const auto request = std::make_shared<Request>();
+  experiments::ExperimentOptions& options = request->options;
+  command
+      ->add_option("NAME", request->name,
+                   "A folder of train/results, as baseline-vs-shaping; or an experiment.toml")
+      ->required();
+  command->add_option("--potential", request->potential,
+                      "Instead of the potential of the first shaped arm");
+  command->add_option("--seeds", request->seeds, "1, 2, … so many, instead of the file's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
+  command->add_option("--jobs", options.jobs, "Runs side by side")->capture_default_str();
+  command->add_option("--set", request->settings,
+                      "One setting of every arm that does not say otherwise");
+  command->add_option("--out", options.runs, "Folder of the runs; runs/NAME if not given");
+  command->add_option("--report", options.report,
+                      "Folder of curves and figures; OUT/report if not given");
+  command->callback([request] { experiment_as_requested(*request); });
+}
+
+}  // namespace stride

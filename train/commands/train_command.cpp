@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "train/training/interrupt.h"
+#include "train/training/runner_factory.h"
+#include "train/training/train.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the command line says.
+struct Request {
+  std::string potential, reference, out, resume, preset, config;
+  std::vector<std::string> assignments;
+  std::optional<std::int64_t> seed, decisions;
+  bool baseline = false;
+};
+
+void apply_overrides(const Request& request, training::TrainOptions& options) {
+  for (const std::string& assignment : request.assignments)
+    training::set_option(assignment, options);
+  if (request.seed) options.run.seed = *request.seed;
+  if (request.decisions) options.run.decisions = *request.decisions;
+}
+
+/// A new run: the preset, then the config file, then the command line. Returns its folder.
+fs::path begin(const Request& request) {
+  require(!request.out.empty(), "--out: name the folder of the run");
+  require(request.potential.empty() != !request.baseline,
+          "give either --potential FILE, or --baseline to train without one");
+  training::TrainOptions options;
+  training::read_toml(training::preset_file(request.preset), options);
+  if (!request.config.empty()) training::read_toml(request.config, options);
+  apply_overrides(request, options);
+  if (!request.potential.empty())
+    options.shaping.source = fs::absolute(request.potential).lexically_normal().string();
+  const training::Demonstration demonstration =
+      training::load_demonstration(request.potential, request.reference, options.environment);
+  if (demonstration.potential)
+    fmt::print(stderr, "{}: {}\n", request.potential, demonstration.potential->verdict);
+  if (!options.environment.model.empty())
+    options.environment.model = fs::absolute(options.environment.model).string();
+  training::make_run_folder(options, demonstration, request.out);
+  return request.out;
+}
+
+/// A run that exists: only its length may be changed.
+fs::path resume(const Request& request) {
+  require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
+              !request.baseline && request.config.empty() && request.assignments.empty() &&
+              !request.seed,
+          "--resume {}: a run keeps its configuration; only --decisions may be given with it",
+          request.resume);
+  const fs::path run = request.resume;
+  training::TrainOptions options = training::load_run_options(run);
+  if (request.decisions && *request.decisions != options.run.decisions) {
+    options.run.decisions = *request.decisions;
+    training::write_run_options(options, run);
+  }
+  return run;
+}
+
+void train_as_requested(const Request& request) {
+  const fs::path run = request.resume.empty() ? begin(request) : resume(request);
+  const std::atomic<bool>& interrupted = training::stopped_by({SIGINT, SIGTERM});
+  const training::TrainOptions options = training::load_run_options(run);
+  const training::EnvironmentFactory runners =
+      training::make_runners(options.environment, training::load_run_demonstration(options, run));
+  const training::TrainSummary summary = training::train(run, runners, interrupted, stderr);
+  require(summary.divergence.empty(), "{}: {}; the last good checkpoint is kept", run.string(),
+          summary.divergence);
+  require(summary.unsaved.empty(),
+          "{}: {}; make room, then continue from the checkpoint before: stride train --resume {}",
+          run.string(), summary.unsaved, run.string());
+  if (!summary.finished)
+    fmt::print(stderr, "\nstopped and saved; continue with: stride train --resume {}\n",
+               run.string());
+  fmt::print("{}\n{}\n", summary.brief_report(), run.string());
+}
+
+}  // namespace
+
+void add_train_command(CLI::App& app) {
+  auto* command = app.add_subcommand("train", "Train a runner, shaped by a potential file");
+  const auto request = std::make_shared<Request>();
+  command->add_option("--potential", request->potential, "NAME.potential.json to shape by");
+  command->add_option("--reference", request->reference,
+                      "Run on which episodes may start; NAME.calibrated.csv beside the potential "
+                      "if not given");
+  command->add_flag("--baseline", request->baseline, "Train without a potential");
+  command->add_option("--out", request->out, "Folder of the run, new");
+  command->add_option("--seed", request->seed, "Of every random number");
+  command->add_option("--decisions", request->decisions, "The run ends after so many");
+  command->add_option("--preset", request->preset, "Settings in train/presets: stride, paper, demo")
+      ->default_val("stride");
+  command->add_option("--config", request->config, "TOML file of settings, over the preset");
+  command->add_option("--set", request->assignments, "One setting, as agent.gamma=0.99");
+  command->add_option("--resume", request->resume, "Continue the run in this folder");
+  command->callback([request] { train_as_requested(*request); });
+}
+
+}  // namespace stride

@@ -1,0 +1,167 @@
+#include "train/ddpg/replay_buffer.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "extract/io/error.h"
+
+namespace stride::ddpg {
+namespace {
+
+/// Asks for large pages, before the memory is first written: what is read all over the place spends
+/// a quarter of its time on the translation of addresses otherwise.
+template <typename Element>
+void advise_large_pages(Element* data, std::size_t count) {
+  constexpr std::size_t kPage = 4096;
+  const std::size_t begin = (reinterpret_cast<std::size_t>(data) + kPage - 1) / kPage * kPage;
+  const std::size_t end = reinterpret_cast<std::size_t>(data + count) / kPage * kPage;
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
+
+/// Has memory brought near while other things are done.
+template <typename Element>
+void prefetch(const Element* data, Eigen::Index count) {
+  constexpr std::ptrdiff_t kLine = 64;
+  const auto* begin = reinterpret_cast<const char*>(data);
+  const auto* end = reinterpret_cast<const char*>(data + count);
+  for (const char* at = begin; at < end; at += kLine) __builtin_prefetch(at);
+  __builtin_prefetch(end - 1);
+}
+
+template <typename Column>
+void prefetch(const Column& column) {
+  prefetch(column.data(), column.size());
+}
+
+}  // namespace
+
+PackedPose pack(const Pose& pose) {
+  return {pose.pelvis_height_m, pose.knee_r.x(), pose.knee_r.y(), pose.foot_r.x(), pose.foot_r.y(),
+          pose.knee_l.x(),      pose.knee_l.y(), pose.foot_l.x(), pose.foot_l.y()};
+}
+
+Pose unpack(const PackedPose& p) {
+  return {.pelvis_height_m = p[0],
+          .knee_r = {p[1], p[2]},
+          .foot_r = {p[3], p[4]},
+          .knee_l = {p[5], p[6]},
+          .foot_l = {p[7], p[8]}};
+}
+
+template <typename Scalar>
+ReplayBuffer<Scalar>::ReplayBuffer(const Layout& layout, const environment::Mirror& feature_mirror,
+                                   const environment::Mirror& action_mirror)
+    : layout_(layout), feature_mirror_(feature_mirror), action_mirror_(action_mirror) {
+  kept_rounds_ = layout.capacity / layout.environments;
+  require(kept_rounds_ >= 2, "replay.capacity = {}: must be at least twice the {} environments",
+          layout.capacity, layout.environments);
+  stored_rounds_ = kept_rounds_ + layout.lead;
+  const Eigen::Index count = stored_rounds_ * layout.environments;
+  features_.resize(layout.features, count);
+  actions_.resize(layout.actions, count);
+  advise_large_pages(features_.data(), static_cast<std::size_t>(features_.size()));
+  advise_large_pages(actions_.data(), static_cast<std::size_t>(actions_.size()));
+  records_.reserve(static_cast<std::size_t>(count));
+  advise_large_pages(records_.data(), static_cast<std::size_t>(count));
+  records_.resize(static_cast<std::size_t>(count));
+}
+
+template <typename Scalar>
+typename ReplayBuffer<Scalar>::Record& ReplayBuffer<Scalar>::record(std::int64_t round,
+                                                                    int environment) {
+  return records_[static_cast<std::size_t>(position(round, environment))];
+}
+
+template <typename Scalar>
+const typename ReplayBuffer<Scalar>::Record& ReplayBuffer<Scalar>::record(std::int64_t round,
+                                                                          int environment) const {
+  return records_[static_cast<std::size_t>(position(round, environment))];
+}
+
+template <typename Scalar>
+void ReplayBuffer<Scalar>::publish(int rounds) {
+  rounds_ += rounds;
+}
+
+template <typename Scalar>
+void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
+                                  Batch<Scalar>& batch) const {
+  batch.states.resize(layout_.features, options.batch);
+  batch.next_states.resize(layout_.features, options.batch);
+  batch.actions.resize(layout_.actions, options.batch);
+  batch.rewards.resize(options.batch);
+  batch.discounts.resize(options.batch);
+
+  const std::int64_t first = first_round();
+  const auto choices = static_cast<std::uint64_t>((rounds_ - 1 - first) * layout_.environments);
+  batch.draws.clear();
+  for (int s = 0; s < options.batch; ++s) {
+    std::int64_t round = 0;
+    int environment = 0;
+    do {
+      const auto drawn = static_cast<std::int64_t>(uniform_index(random, choices));
+      round = first + drawn / layout_.environments;
+      environment = static_cast<int>(drawn % layout_.environments);
+    } while (record(round, environment).outcome == Outcome::ended);
+    const bool mirror = options.mirror && (random() >> 63) != 0;
+    batch.draws.push_back({round, environment, mirror});
+    const std::int64_t last = std::min(round + options.n_step, rounds_ - 1);
+    prefetch(features_.col(position(round, environment)));
+    prefetch(actions_.col(position(round, environment)));
+    prefetch(features_.col(position(last, environment)));
+    for (std::int64_t i = round; i <= last; ++i) prefetch(&record(i, environment), 1);
+  }
+
+  for (int s = 0; s < options.batch; ++s) {
+    const auto& [round, environment, mirror] = batch.draws[static_cast<std::size_t>(s)];
+    // Up to n steps, fewer at the end of the episode or of what is known. The potentials in
+    // between cancel: Σ γⁱ Fᵢ = γᵐ Φ(s_m) − Φ(s_0).
+    const auto phi = [&, mirrored = mirror](const Record& r) {
+      return mirrored ? r.phi_mirrored : r.phi;
+    };
+    double reward = 0, discount = 1;
+    std::int64_t last = round;
+    for (int i = 0;; ++i) {
+      const Record& step = record(last, environment);
+      reward += discount * options.reward_scale * step.reward;
+      discount = step.outcome == Outcome::terminated ? 0 : discount * options.gamma;
+      ++last;
+      if (step.outcome != Outcome::continued || i + 1 == options.n_step || last + 1 == rounds_)
+        break;
+    }
+    if (options.shaped)  // fma: one rounding, however the compiler arranges the lines around it
+      reward +=
+          std::fma(discount, phi(record(last, environment)), -phi(record(round, environment)));
+
+    const Eigen::Index here = position(round, environment), next = position(last, environment);
+    if (mirror) {
+      feature_mirror_.apply(features_.col(here), batch.states.col(s));
+      feature_mirror_.apply(features_.col(next), batch.next_states.col(s));
+      action_mirror_.apply(actions_.col(here), batch.actions.col(s));
+    } else {
+      batch.states.col(s) = features_.col(here);
+      batch.next_states.col(s) = features_.col(next);
+      batch.actions.col(s) = actions_.col(here);
+    }
+    batch.rewards[s] = static_cast<Scalar>(reward);
+    batch.discounts[s] = static_cast<Scalar>(discount);
+  }
+}
+
+template <typename Scalar>
+void ReplayBuffer<Scalar>::set_potential(const Potential& potential) {
+  for (std::int64_t round = first_round(); round < rounds_; ++round)
+    for (int e = 0; e < layout_.environments; ++e) {
+      Record& r = record(round, e);
+      const Pose pose = unpack(r.pose);
+      r.phi = potential(pose, r.phase);
+      r.phi_mirrored = potential(pose.mirrored(), r.phase + 0.5);
+    }
+}
+
+template class ReplayBuffer<float>;
+template class ReplayBuffer<double>;
+
+}  // namespace stride::ddpg

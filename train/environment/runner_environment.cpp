@@ -1,0 +1,164 @@
+#include "train/environment/runner_environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "extract/io/error.h"
+#include "train/simulation/engine/runner_layout.h"
+#include "train/simulation/make_engine.h"
+
+namespace stride::environment {
+namespace {
+
+simulation::EngineOptions engine_options(const RunnerOptions& options) {
+  simulation::EngineOptions engine;
+  engine.accuracy = options.accuracy;
+  return competition::under(options.rules, engine);
+}
+
+/// [0, 1)
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// The depth to which the feet sink in quiet standing, m.
+constexpr double kStandingDepth_m = 0.025;
+
+double deepest_contact(const osim::Model& model, const simulation::RunnerKinematics& kinematics) {
+  double deepest = 0;
+  for (const osim::ContactForce& contact : model.contacts)
+    for (int i : contact.spheres) {
+      const osim::ContactSphere& sphere = model.spheres[i];
+      if (sphere.body < 0) continue;
+      const simulation::RunnerKinematics::Frame& frame = kinematics.bodies[sphere.body];
+      const double y = frame.position.y + std::sin(frame.angle_rad) * sphere.location_m[0] +
+                       std::cos(frame.angle_rad) * sphere.location_m[1];
+      deepest = std::max(deepest, model.planes[contact.plane].height_m + sphere.radius_m - y);
+    }
+  return deepest;
+}
+
+}  // namespace
+
+RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptions& options)
+    : options_(options),
+      engine_(simulation::make_engine(options.engine, model, engine_options(options))),
+      sensors_(model),
+      knee_r_(model.body("tibia_r")),
+      knee_l_(model.body("tibia_l")) {
+  competition::check_scene_options(options.difficulty, options.max_obstacles);
+  require(options.accuracy > 0 && options.accuracy <= 0.1,
+          "accuracy = {}: must be in (0, 0.1]; 1e-3 is usual", options.accuracy);
+  require(options.max_steps > 0, "max_steps = {}: must be > 0", options.max_steps);
+  require(options.foot == "ankle" || options.foot == "toe", "foot \"{}\": must be ankle or toe",
+          options.foot);
+  require(options.reference_share >= 0 && options.reference_share <= 1,
+          "reference_share = {}: must be in [0, 1]", options.reference_share);
+  require(!options.reference || options.reference->samples.size() >= 3,
+          "reference {}: has {} samples; speeds need three at least",
+          options.reference ? options.reference->source : "",
+          options.reference ? options.reference->samples.size() : 0);
+  if (options.reference)
+    for (const CalibratedSample& sample : options.reference->samples)
+      for (double value : sample.coordinates)
+        require(std::isfinite(value), "reference {}: at {} s a coordinate is not a number",
+                options.reference->source, sample.time_s);
+  foot_r_ = model.body(options.foot == "toe" ? "toes_r" : "talus_r");
+  foot_l_ = model.body(options.foot == "toe" ? "toes_l" : "talus_l");
+  spec_.observation_names = competition::Sensors::names();
+  spec_.action_names.assign(simulation::muscle_names().begin(), simulation::muscle_names().end());
+  spec_.step_s = competition::kStep_s;
+  spec_.max_steps = options.max_steps;
+  step_.observation.resize(static_cast<Eigen::Index>(spec_.observation_names.size()));
+}
+
+const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
+  if (running_) ++tally_.abandoned;
+  ++tally_.episodes;
+  running_ = true;
+  steps_ = 0;
+  initial_phase_ = 0;
+  reward_ = {};
+  report_ = {};
+  scene_ = competition::draw_scene(seed, options_.difficulty, options_.max_obstacles);
+  competition::arrange(scene_, options_.rules, options_.max_obstacles, *engine_);
+  std::mt19937_64 random(seed);
+  if (options_.reference && uniform(random) < options_.reference_share)
+    start_on_reference(random);
+  else
+    competition::set_initial_state(options_.rules, *engine_);
+  start_x_m_ = engine_->state().q[1];
+  kinematics_ = engine_->kinematics();
+  observe();
+  return step_.observation;
+}
+
+void RunnerEnvironment::start_on_reference(std::mt19937_64& random) {
+  const std::vector<CalibratedSample>& samples = options_.reference->samples;
+  const auto i =
+      1 + static_cast<std::size_t>(uniform(random) * static_cast<double>(samples.size() - 2));
+  const CalibratedSample &before = samples[i - 1], &now = samples[i], &after = samples[i + 1];
+  simulation::RunnerState state = simulation::default_state(engine_->model());
+  state.q = now.coordinates;
+  for (int k = 0; k < simulation::kCoordinates; ++k)
+    state.u[k] = (after.coordinates[k] - before.coordinates[k]) / (after.time_s - before.time_s);
+  state.q[1] = 0;
+  engine_->set_state(state);
+  const double depth = deepest_contact(engine_->model(), engine_->kinematics());
+  state.q[2] += std::max(depth - kStandingDepth_m, 0.0);
+  engine_->set_state(state);
+  engine_->equilibrate_fibers();
+  initial_phase_ = now.phase;
+}
+
+void RunnerEnvironment::observe() {
+  sensors_.read(engine_->state(), kinematics_, scene_, options_.rules, options_.max_obstacles,
+                step_.observation.data());
+}
+
+const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
+  simulation::Excitations excitations{};
+  bool finite = action.size() == simulation::kMuscles;
+  for (int i = 0; i < simulation::kMuscles && finite; ++i) {
+    finite = std::isfinite(action[i]);
+    excitations[i] = std::clamp(action[i], 0.0, 1.0);
+  }
+  const double x_before = engine_->state().q[1];
+  if (finite) {
+    report_ = engine_->advance(excitations, competition::kStep_s);
+  } else {
+    report_ = {};
+    report_.ok = false;
+    report_.failure = "an excitation is not a finite number";
+  }
+  ++steps_;
+  ++tally_.steps;
+  kinematics_ = engine_->kinematics();
+  reward_ = competition::step_reward(x_before, engine_->state(), kinematics_);
+  observe();
+  step_.reward = reward_.sum();
+  step_.failed = !report_.ok;
+  step_.terminated = step_.failed || competition::has_fallen(engine_->state());
+  step_.truncated = !step_.terminated && steps_ >= options_.max_steps;
+  if (step_.terminated || step_.truncated) {
+    running_ = false;
+    ++(step_.failed ? tally_.failures : step_.terminated ? tally_.falls : tally_.time_limits);
+  }
+  return step_;
+}
+
+Pose RunnerEnvironment::pose() const {
+  const auto& bodies = kinematics_.bodies;
+  const simulation::RunnerState& state = engine_->state();
+  const auto from_pelvis = [&](int body) {
+    return Eigen::Vector2d(bodies[body].position.x - state.q[1],
+                           bodies[body].position.y - state.q[2]);
+  };
+  Pose pose;
+  pose.pelvis_height_m = state.q[2];
+  pose.knee_r = from_pelvis(knee_r_);
+  pose.knee_l = from_pelvis(knee_l_);
+  pose.foot_r = from_pelvis(foot_r_);
+  pose.foot_l = from_pelvis(foot_l_);
+  return pose;
+}
+
+}  // namespace stride::environment

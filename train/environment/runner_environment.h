@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "calibrate/runner/calibrated.h"
+#include "train/environment/environment.h"
+#include "train/simulation/competition/rules.h"
+#include "train/simulation/competition/sensors.h"
+#include "train/simulation/make_engine.h"
+
+namespace stride::environment {
+
+struct RunnerOptions {
+  std::string engine = simulation::kDefaultEngine;
+  competition::Rules rules = competition::Rules::clean;
+  int difficulty = 0;     // 0: flat; 1: obstacles; 2: obstacles and weak muscles
+  int max_obstacles = 3;  // 0 to 20
+  double accuracy = 1e-3;
+  int max_steps = competition::kMaxSteps;
+  std::string foot = "ankle";  // of pose(): "ankle" (origin of talus) or "toe" (of toes)
+  /// Reference state initialisation: this share of the episodes starts from a random sample of a
+  /// calibrated run, with its speeds. Those episodes start with fibres in equilibrium whatever the
+  /// rules, and raised where the fit has put a foot into the floor deeper than standing does.
+  std::optional<CalibratedTrajectory> reference;
+  double reference_share = 1;
+};
+
+/// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation, reward and
+/// end of an episode as in the competition (see Sensors, Reward, Rules), with fall and time limit
+/// told apart. An action is the excitation of each muscle for 0.01 s.
+class RunnerEnvironment final : public Environment {
+ public:
+  /// Throws Error naming the option that is out of range, or why the engine refuses the model.
+  RunnerEnvironment(const osim::Model& model, const RunnerOptions& options);
+
+  const EnvironmentSpec& spec() const override { return spec_; }
+  const Eigen::VectorXd& reset(std::uint64_t seed) override;
+  const Step& step(const Eigen::VectorXd& action) override;
+  Pose pose() const override;
+  double time_s() const override { return engine_->state().time_s; }
+  double distance_m() const override { return engine_->state().q[1] - start_x_m_; }
+  double initial_phase() const override { return initial_phase_; }
+
+  const simulation::Engine& engine() const { return *engine_; }
+  const competition::Scene& scene() const { return scene_; }
+  /// Of the current state.
+  const simulation::RunnerKinematics& kinematics() const { return kinematics_; }
+  /// Of the last step.
+  const competition::Reward& reward() const { return reward_; }
+  const simulation::AdvanceReport& report() const { return report_; }
+
+  /// How every episode since construction ended; those that were left by reset() are `abandoned`.
+  struct Tally {
+    long steps = 0, episodes = 0;
+    long falls = 0, time_limits = 0, failures = 0, abandoned = 0;
+  };
+  const Tally& tally() const { return tally_; }
+
+ private:
+  void start_on_reference(std::mt19937_64& random);
+  void observe();
+
+  RunnerOptions options_;
+  EnvironmentSpec spec_;
+  std::unique_ptr<simulation::Engine> engine_;
+  competition::Sensors sensors_;
+  int knee_r_, knee_l_, foot_r_, foot_l_;  // indices into Model::bodies
+
+  competition::Scene scene_;
+  simulation::RunnerKinematics kinematics_;
+  competition::Reward reward_;
+  simulation::AdvanceReport report_;
+  Step step_;
+  Tally tally_;
+  int steps_ = 0;
+  bool running_ = false;
+  double start_x_m_ = 0, initial_phase_ = 0;
+};
+
+}  // namespace stride::environment

@@ -1,0 +1,183 @@
+#include "train/evaluation/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/outputs.h"
+#include "train/film/evaluation_film.h"
+#include "train/rollout/human_gait.h"
+#include "train/training/runner_factory.h"
+#include "train/training/train.h"
+
+namespace stride::evaluation {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Not a number becomes null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const rollout::GaitBand& band) { return {band.low, band.high}; }
+
+/// Null where humans do not run.
+Json to_json(const std::optional<rollout::HumanGait>& human) {
+  if (!human) return {};
+  return {{"cadence_per_min", to_json(human->cadence_per_min)},
+          {"step_length_m", to_json(human->step_length_m)},
+          {"duty_factor", to_json(human->duty_factor)},
+          {"flight_share", to_json(human->flight_share)}};
+}
+
+Json to_json(const rollout::GaitSummary& gait) {
+  return {{"speed_m_s", number(gait.speed_m_s)},
+          {"last_speed_m_s", number(gait.last_speed_m_s)},
+          {"cadence_per_min", number(gait.cadence_per_min)},
+          {"step_length_m", number(gait.step_length_m)},
+          {"duty_factor", number(gait.duty_factor)},
+          {"flight_share", number(gait.flight_share)},
+          {"leg_phase", number(gait.leg_phase)},
+          {"stride_s", number(gait.stride_s)},
+          {"peak_ground_force_bw", number(gait.peak_ground_force_bw)}};
+}
+
+Json to_json(const Evaluation& evaluation, const fs::path& agent) {
+  Json episodes = Json::array();
+  for (const network::EpisodeSummary& episode : evaluation.episodes)
+    episodes.push_back({{"seed", episodes.size()},
+                        {"distance_m", episode.distance_m},
+                        {"reward", episode.reward},
+                        {"time_s", episode.time_s},
+                        {"fell", episode.fell},
+                        {"failed", episode.failed}});
+  return {{"format", "stride-evaluation"},
+          {"version", 1},
+          {"agent", agent.filename().string()},
+          {"distance_m", evaluation.distance_m},
+          {"distance_se_m", number(evaluation.distance_se_m)},
+          {"falls", evaluation.falls},
+          {"gait", to_json(evaluation.gait)},
+          {"human_at_this_speed", to_json(rollout::human_gait(evaluation.gait.speed_m_s))},
+          {"episodes", episodes}};
+}
+
+/// Mean and standard error of the distances.
+void summarise(Evaluation& evaluation) {
+  const auto n = static_cast<double>(evaluation.episodes.size());
+  double sum = 0, squares = 0;
+  for (const network::EpisodeSummary& episode : evaluation.episodes) {
+    sum += episode.distance_m;
+    evaluation.falls += episode.fell;
+  }
+  evaluation.distance_m = sum / n;
+  for (const network::EpisodeSummary& episode : evaluation.episodes)
+    squares += std::pow(episode.distance_m - evaluation.distance_m, 2);
+  evaluation.distance_se_m = n > 1 ? std::sqrt(squares / (n - 1) / n) : NAN;
+}
+
+template <typename Scalar>
+std::vector<rollout::Rollout> run_episodes(const fs::path& agent,
+                                           const training::TrainOptions& train_options,
+                                           const Potential* potential,
+                                           environment::RunnerEnvironment& environment,
+                                           const EvaluateOptions& options) {
+  environment::Observer observer =
+      training::make_observer(train_options, potential, environment.spec());
+  const network::Policy<Scalar> policy =
+      network::load_policy<Scalar>(agent, observer.names(), environment.spec().action_names);
+  std::vector<rollout::Rollout> rollouts;
+  for (int seed = 0; seed < options.episodes; ++seed)
+    rollouts.push_back(rollout::record_episode(policy, environment, observer, potential,
+                                               train_options.run.action_repeat,
+                                               static_cast<std::uint64_t>(seed)));
+  return rollouts;
+}
+
+}  // namespace
+
+std::string Evaluation::brief_report() const {
+  std::string text = fmt::format("{:.2f} m", distance_m);
+  if (episodes.size() > 1)
+    text += fmt::format(" ± {:.2f} over {} episodes", distance_se_m, episodes.size());
+  text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", falls, episodes.front().time_s,
+                      gait.speed_m_s);
+  if (!std::isfinite(gait.duty_factor)) return text + ", too few steps to speak of a gait";
+  text += fmt::format(", at last {:.2f}", gait.last_speed_m_s);
+  const std::optional<rollout::HumanGait> human = rollout::human_gait(gait.speed_m_s);
+  const auto line = [&](const char* name, double value, rollout::GaitBand rollout::HumanGait::*band,
+                        int digits) {
+    text += fmt::format("\n  {:<18}{:>6.{}f}", name, value, digits);
+    if (!human) return;
+    const auto [low, high] = (*human).*band;
+    text += fmt::format("  {} the human {:.{}f} to {:.{}f}",
+                        ((*human).*band).holds(value) ? "inside" : "outside", low, digits, high,
+                        digits);
+  };
+  line("steps/min", gait.cadence_per_min, &rollout::HumanGait::cadence_per_min, 0);
+  line("m a step", gait.step_length_m, &rollout::HumanGait::step_length_m, 2);
+  line("duty factor", gait.duty_factor, &rollout::HumanGait::duty_factor, 2);
+  line("share in the air", gait.flight_share, &rollout::HumanGait::flight_share, 2);
+  if (std::isfinite(gait.leg_phase))
+    text += fmt::format("\n  {:<18}{:>6.2f}  {}", "phase of the legs", gait.leg_phase,
+                        rollout::leg_pattern(gait.leg_phase));
+  return text + (human ? "" : "\n  humans do not run at this speed: no figures to compare with");
+}
+
+Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
+  require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
+  check_outputs({run / "reference.calibrated.csv"},
+                {{"--trajectory", options.trajectory, FileKind::calibrated}});
+  const fs::path agent = network::agent_file(run, options.agent);
+  training::TrainOptions train_options = training::load_run_options(run);
+  if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
+  if (!options.rules.empty()) train_options.environment.rules = options.rules;
+  if (!options.engine.empty()) train_options.environment.engine = options.engine;
+  train_options.environment.reference.clear();  // only training episodes start on it
+  train_options.check();
+  const training::Demonstration shaped_by = training::load_run_demonstration(train_options, run);
+  const Potential* potential = shaped_by.potential ? &*shaped_by.potential : nullptr;
+  const std::unique_ptr<environment::Environment> made =
+      training::make_runners(train_options.environment, shaped_by)(-1);
+  auto& environment = static_cast<environment::RunnerEnvironment&>(*made);
+  const osim::Model& model = environment.engine().model();
+
+  const auto run_them =
+      train_options.run.precision == "float" ? run_episodes<float> : run_episodes<double>;
+  const std::vector<rollout::Rollout> rollouts =
+      run_them(agent, train_options, potential, environment, options);
+  Evaluation evaluation;
+  for (const rollout::Rollout& rollout : rollouts) evaluation.episodes.push_back(rollout.summary);
+  summarise(evaluation);
+  const rollout::Rollout& farthest = *std::ranges::max_element(
+      rollouts, {}, [](const rollout::Rollout& rollout) { return rollout.summary.distance_m; });
+  evaluation.gait = rollout::gait_of(farthest, model);
+
+  const fs::path out = options.out.empty() ? run : options.out;
+  evaluation.file = out / "evaluation.json";
+  write_file_atomically(evaluation.file, to_json(evaluation, agent).dump(1) + "\n");
+  write_file_atomically(out / "evaluation.mot", rollout::motion_file(farthest));
+  write_file_atomically(out / "evaluation.sto", rollout::states_file(farthest));
+  if (!options.trajectory.empty()) {
+    CalibratedTrajectory own = rollout::demonstration(farthest, model, options.from_s);
+    own.source = fs::absolute(run).lexically_normal().filename().string();
+    save(own, options.trajectory);
+  }
+  if (options.film) {
+    std::optional<film::SourceStride> source;
+    if (potential != nullptr)
+      source =
+          film::find_source(*potential, train_options.shaping.source.empty()
+                                            ? run
+                                            : fs::path(train_options.shaping.source).parent_path());
+    film::write_film(farthest, model, fmt::format("{:.1f} m", farthest.summary.distance_m), source,
+                     out / "evaluation.mp4");
+  }
+  return evaluation;
+}
+
+}  // namespace stride::evaluation

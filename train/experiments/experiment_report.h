@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "train/experiments/plot.h"
+
+namespace stride::experiments {
+
+/// Shares of the budget at which arms are compared, and distances in 10 s that they are timed to.
+inline constexpr std::array kBudgetShares{0.1, 0.2, 0.3, 0.5, 1.0};
+inline constexpr std::array kDistances_m{5.0, 10.0, 15.0, 20.0, 25.0};
+
+/// Where a curve first reached a distance.
+struct Reached {
+  double decisions = 0;
+  double wall_s = 0;
+};
+
+/// What the curves of one arm say, an element a seed.
+struct ArmResult {
+  std::string label;
+  /// Mean of the evaluations in the twentieth of the budget that ends at each of kBudgetShares, or
+  /// the last before, m; NaN where there is none.
+  std::array<std::vector<double>, kBudgetShares.size()> distance_m;
+  /// The first evaluation that reached each of kDistances_m; none if no evaluation did.
+  std::array<std::vector<std::optional<Reached>>, kDistances_m.size()> reached;
+};
+
+/// Reads curve.csv and timing.csv of the runs. `decisions` is the budget.
+std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions);
+
+/// A ratio over paired seeds: exp of the mean of log ratios, with Student's 95 % interval.
+struct PairedRatio {
+  double ratio = 0, low = 0, high = 0;  // NaN where there are too few seeds, or a distance ≤ 0
+};
+PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<double>& control);
+
+/// results.md: distances, ratios to the first arm and times to distances, as tables.
+std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,
+                              std::int64_t decisions, const std::string& command);
+
+}  // namespace stride::experiments

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stride::experiments {
+
+struct PlotOptions {
+  std::string against = "decisions";             // decisions, simulated (hours), wall (hours)
+  std::string column = "evaluation_distance_m";  // of curve.csv
+  std::string title = {};
+  std::filesystem::path out = "plot";  // plot.svg, plot.png, plot.csv, plot.gnuplot
+};
+
+/// Runs of one arm of an experiment, which differ in their seed.
+struct Arm {
+  std::string label;
+  std::vector<std::filesystem::path> runs;
+};
+
+/// Runs whose folders are named by a number are seeds of the arm that is the folder above:
+/// baseline/1 baseline/2 shaped/1 are two arms. Any other run is an arm of its own.
+std::vector<Arm> arms_of(const std::vector<std::filesystem::path>& runs);
+
+/// Draws mean ± standard error over the runs of each arm with gnuplot, from the figures and the
+/// script that are left beside the picture. Runs are interpolated to common abscissae, as far as
+/// all of an arm go. Throws Error naming the run or column, or where gnuplot fails.
+void plot(const std::vector<Arm>& arms, const PlotOptions& options);
+
+/// Draws whenever a curve has grown, until `stop` is set: for a viewer that loads the picture anew.
+/// Runs without figures are waited for; `messages` (or null) is told why, and of every picture.
+void watch(const std::vector<Arm>& arms, const PlotOptions& options, const std::atomic<bool>& stop,
+           std::FILE* messages);
+
+}  // namespace stride::experiments

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shaping/potential.h"
+#include "train/environment/environment.h"
+#include "train/environment/observation.h"
+#include "train/network/mlp.h"
+#include "train/network/normaliser.h"
+
+namespace stride::network {
+
+/// What an agent acts by: the actor, and how its inputs are normalised.
+template <typename Scalar>
+struct Policy {
+  Mlp<Scalar> actor;
+  Normaliser normaliser;
+  double sigma = 0;  // of the noise with which it explores now
+};
+
+/// What came of an episode.
+struct EpisodeSummary {
+  double reward = 0;  // of the environment: neither scaled nor shaped
+  double distance_m = 0, time_s = 0;
+  bool fell = false, failed = false;
+};
+
+/// An episode without noise. `potential` (or null) gives the phase that the agent observes;
+/// `after_step` (or null) is called after the reset and after every step of the environment, with
+/// the action that led there.
+template <typename Scalar>
+EpisodeSummary run_episode(const Policy<Scalar>& policy, environment::Environment& environment,
+                           environment::Observer& observer, const Potential* potential,
+                           int action_repeat, std::uint64_t seed,
+                           const std::function<void(const Eigen::VectorXd& action)>& after_step);
+
+/// What travels with a policy: agent.safetensors. Tensors, float32 or float64, row-major:
+/// `actor.<layer>.weight` [outputs, inputs], `.bias`, `.norm.scale`, `.norm.shift` (of layer
+/// normalisation, variance + 1e-5, before the activation), `normaliser.mean`,
+/// `normaliser.inverse_sd` [features]. action = sigmoid(actor(clip((features − mean) · inverse_sd,
+/// ±10))). Metadata: format, version, actor.hidden, actor.activation, actor.layer_norm, features
+/// and actions (names, separated by commas), action_repeat.
+template <typename Scalar>
+void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& features,
+                 const std::vector<std::string>& actions, int action_repeat,
+                 const std::filesystem::path& file);
+
+/// The policy file of a run: `agent` is best, or agent: the last one. Throws Error otherwise.
+std::filesystem::path agent_file(const std::filesystem::path& run, const std::string& agent);
+
+/// What a policy file says its features and actions are.
+struct PolicyNames {
+  std::vector<std::string> features, actions;
+  int action_repeat = 1;
+};
+PolicyNames load_policy_names(const std::filesystem::path& file);
+
+/// Reads it back. Throws Error naming the file, also where its features or actions are not these.
+template <typename Scalar>
+Policy<Scalar> load_policy(const std::filesystem::path& file,
+                           const std::vector<std::string>& features,
+                           const std::vector<std::string>& actions);
+
+}  // namespace stride::network

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "train/rollout/rollout.h"
+
+namespace stride::rollout {
+
+/// A time that a foot spends on the ground: a stance.
+struct FootContact {
+  int side = 0;                   // 0 right, 1 left
+  double start_s = 0, end_s = 0;  // of contact
+  double start_x_m = 0;           // of the ankle at the strike
+};
+
+/// Stances of both feet, by time: a foot is on the ground while it bears more than 5 % of the
+/// body's weight; gaps and contacts shorter than 30 ms are noise. A stance that begins with the
+/// rollout or is cut by its end is left out.
+std::vector<FootContact> foot_contacts(const Rollout& rollout, const osim::Model& model);
+
+/// Figures of running, over the steps of the rollout; NaN where there are too few.
+struct GaitSummary {
+  double speed_m_s = 0;             // distance over time
+  double last_speed_m_s = 0;        // over the last third of the time
+  double cadence_per_min = 0;       // steps of either foot
+  double step_length_m = 0;         // from the strike of one foot to that of the other
+  double duty_factor = 0;           // share of a stride that a foot is on the ground
+  double flight_share = 0;          // of the time with no foot on the ground
+  double leg_phase = 0;             // between the legs' strikes, of a stride: ½ in turn, 0 at once
+  double stride_s = 0;              // mean time between strikes of the same foot
+  double peak_ground_force_bw = 0;  // largest vertical force on the runner, in body weights
+};
+
+GaitSummary gait_of(const Rollout& rollout, const osim::Model& model);
+
+double weight_N(const osim::Model& model);
+
+}  // namespace stride::rollout

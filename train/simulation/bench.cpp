@@ -1,0 +1,232 @@
+#include "train/simulation/bench.h"
+#include "train/simulation/engine/runner_layout.h"
+#include "train/simulation/make_engine.h"
+
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <thread>
+
+namespace stride::simulation {
+namespace {
+
+constexpr double kStep_s = 0.01;
+constexpr int kHeldSteps = 10, kEpisodeSteps = 1000;
+constexpr double kFallHeight_m = 0.65;
+
+double wall_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double thread_cpu_s() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double resident_MiB() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+/// Of 53 bits, the same with every standard library.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// One engine that lives through one episode after another.
+class Runner {
+ public:
+  Runner(const std::string& name, const osim::Model& model, const BenchOptions& options,
+         std::uint64_t seed)
+      : engine_(simulation::make_engine(name, model, options.engine)),
+        start_(simulation::default_state(model)),
+        obstacles_(options.obstacles),
+        random_(seed) {
+    result_.engine = name;
+    begin_episode();
+  }
+
+  /// Until the wall clock says so, or for that many steps.
+  void run(double seconds, long steps) {
+    const double cpu = thread_cpu_s(), end = wall_s() + seconds;
+    const long last = result_.steps + steps;
+    while (steps > 0 ? result_.steps < last : wall_s() < end) step();
+    result_.cpu_s += thread_cpu_s() - cpu;
+  }
+
+  const BenchResult& result() const { return result_; }
+  Engine& engine() { return *engine_; }
+
+  void begin_episode() {
+    std::vector<Obstacle> obstacles;
+    for (int i = 0; i < obstacles_; ++i) {
+      const double radius = 0.05 + 0.1 * uniform(random_);
+      obstacles.push_back(
+          {0.3 + 5 * uniform(random_), radius * (0.5 * uniform(random_) - 0.25), radius});
+    }
+    engine_->set_obstacles(obstacles);
+    engine_->set_state(start_);
+    engine_->equilibrate_fibers();
+    step_ = 0;
+  }
+
+  /// False at the end of an episode.
+  bool step_once() {
+    if (step_++ % kHeldSteps == 0) {
+      for (double& e : excitations_) e = uniform(random_);
+    }
+    const AdvanceReport report = engine_->advance(excitations_, kStep_s);
+    ++result_.steps;
+    result_.evaluations += report.evaluations;
+    result_.integration_steps += report.steps;
+    result_.rejected += report.rejected;
+    if (!report.ok) {
+      if (result_.failures++ == 0) result_.first_failure = report.failure;
+      return false;
+    }
+    const bool fell = engine_->state().q[2] < kFallHeight_m, late = step_ >= kEpisodeSteps;
+    result_.falls += fell;
+    result_.time_limits += late && !fell;
+    return !fell && !late;
+  }
+
+ private:
+  void step() {
+    if (!step_once()) begin_episode();
+  }
+
+  std::unique_ptr<Engine> engine_;
+  RunnerState start_;
+  int obstacles_;
+  std::mt19937_64 random_;
+  Excitations excitations_{};
+  int step_ = 0;
+  BenchResult result_;
+};
+
+void add(BenchResult& sum, const BenchResult& part) {
+  sum.steps += part.steps;
+  sum.evaluations += part.evaluations;
+  sum.integration_steps += part.integration_steps;
+  sum.rejected += part.rejected;
+  sum.falls += part.falls;
+  sum.time_limits += part.time_limits;
+  sum.failures += part.failures;
+  if (sum.first_failure.empty()) sum.first_failure = part.first_failure;
+  sum.cpu_s += part.cpu_s;
+}
+
+/// The runners of one engine, one a thread.
+struct Team {
+  std::vector<std::unique_ptr<Runner>> runners;
+  BenchResult result;
+
+  void run(double seconds, long steps) {
+    const double start = wall_s();
+    std::vector<std::thread> threads;
+    for (std::size_t i = 1; i < runners.size(); ++i) {
+      threads.emplace_back([&, i] { runners[i]->run(seconds, steps); });
+    }
+    runners[0]->run(seconds, steps);
+    for (std::thread& thread : threads) thread.join();
+    result.wall_s += wall_s() - start;
+  }
+};
+
+/// Rollouts of a second: the coordinates after each step.
+using Trace = std::vector<std::array<double, kCoordinates>>;
+
+Trace trace(Runner& runner) {
+  Trace all;
+  runner.begin_episode();
+  for (int i = 0; i < 100; ++i) {
+    const bool on = runner.step_once();
+    all.push_back(runner.engine().state().q);
+    if (!on) break;
+  }
+  return all;
+}
+
+double difference(const Trace& a, const Trace& b) {
+  double worst = 0;
+  for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n) {
+    for (int i = 0; i < kCoordinates; ++i) worst = std::max(worst, std::abs(a[n][i] - b[n][i]));
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<BenchResult> bench(const std::vector<std::string>& engines, const osim::Model& model,
+                               const BenchOptions& options) {
+  constexpr int kTurns = 10;
+  std::vector<Team> teams;
+  for (const std::string& name : engines) {
+    Team& team = teams.emplace_back();
+    team.result.engine = name;
+    team.result.threads = options.threads;
+    team.result.accuracy = options.engine.accuracy;
+    for (int i = 0; i < options.threads; ++i) {
+      team.runners.push_back(std::make_unique<Runner>(name, model, options, options.seed + i));
+    }
+  }
+  const long first = options.steps / 100;  // to warm up, before memory is looked at
+  for (Team& team : teams) {
+    team.run(options.seconds / 100, first);
+    team.result.resident_start_MiB = resident_MiB();
+  }
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const long steps =
+        (options.steps - first) * (turn + 1) / kTurns - (options.steps - first) * turn / kTurns;
+    for (Team& team : teams) team.run(0.99 * options.seconds / kTurns, steps);
+  }
+  std::vector<BenchResult> results;
+  for (Team& team : teams) {
+    for (const auto& runner : team.runners) add(team.result, runner->result());
+    team.result.resident_MiB = resident_MiB();
+    results.push_back(team.result);
+  }
+  return results;
+}
+
+std::vector<AccuracyRow> accuracy_table(const osim::Model& model, const AccuracyOptions& options) {
+  const auto rollouts = [&](const std::string& engine, double accuracy, BenchResult& sum) {
+    BenchOptions bench;
+    bench.engine.accuracy = accuracy;
+    std::vector<Trace> traces;
+    for (int i = 0; i < options.rollouts; ++i) {
+      Runner runner(engine, model, bench, options.seed + i);
+      const double cpu = thread_cpu_s();
+      traces.push_back(trace(runner));
+      sum.cpu_s += thread_cpu_s() - cpu;
+      add(sum, runner.result());
+    }
+    return traces;
+  };
+  BenchResult ignored;
+  const std::vector<Trace> reference = rollouts("planar", 1e-9, ignored);
+  std::vector<AccuracyRow> rows;
+  for (const std::string& engine : options.engines) {
+    for (const double accuracy : options.accuracies) {
+      BenchResult sum;
+      const std::vector<Trace> traces = rollouts(engine, accuracy, sum);
+      std::vector<double> errors;
+      for (std::size_t i = 0; i < traces.size(); ++i) {
+        errors.push_back(difference(traces[i], reference[i]));
+      }
+      std::sort(errors.begin(), errors.end());
+      rows.push_back({engine, accuracy, sum.evaluations_per_step(), sum.steps_per_cpu_s(),
+                      errors[errors.size() / 2], errors[errors.size() * 9 / 10], errors.back()});
+    }
+  }
+  return rows;
+}
+
+}  // namespace stride::simulation

@@ -1,0 +1,126 @@
+#include "train/simulation/planar/contact.h"
+
+#include <cmath>
+
+#include "train/simulation/planar/linear.h"
+
+namespace stride::planar {
+
+using simd::both;
+using simd::Pair;
+using simd::V2;
+using simd::V4;
+
+namespace {
+
+/// Adds a spring or damper between the foot's point (relative to the pelvis) and the ground, whose
+/// tensor is [xx xy; xy yy].
+void add_at_foot(PlanarLinear::Matrix& matrix, const Pair joint[3], Pair point, V2 xx, V2 xy,
+                 V2 yy) {
+  const Pair column[6] = {perp(point - joint[0]), perp(point - joint[1]),
+                          perp(point - joint[2]), perp(point),
+                          {both(1), V2{}},        {V2{}, both(1)}};
+  for (int i = 0; i < 6; ++i) {
+    const Pair w{xx * column[i].x + xy * column[i].y, xy * column[i].x + yy * column[i].y};
+    for (int j = i; j < 6; ++j) matrix.at[i][j] += dot(w, column[j]);
+  }
+}
+
+}  // namespace
+
+FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const PlanarKinematics& k,
+                        bool drop_contacts, PlanarLinear* linear) {
+  if (m.spheres_of_foot == 0) return {};
+  const V4 zero{};
+  const auto twice = [](V2 v) { return V4{v[0], v[1], v[0], v[1]}; };
+  const V4 c = twice(k.cos[3]), s = twice(k.sin[3]);
+  const V4 arm_x = c * m.sphere_x_m - s * m.sphere_y_m, arm_y = s * m.sphere_x_m + c * m.sphere_y_m;
+  const V4 y = arm_y + twice(k.origin[3].y) + state.q(8);
+  const V4 depth = m.sphere_radius_m - (y - m.ground_height_m);
+  if (!simd::any(depth > zero)) return {};
+  const V4 x_in = simd::max(depth, zero);
+  const V4 point_y = arm_y - (m.sphere_radius_m - 0.5 * x_in);  // from the foot's origin
+  const V4 omega = twice(k.omega[3]);
+  const V4 vx = twice(k.velocity_of_foot.x) - omega * point_y;
+  const V4 vy = twice(k.velocity_of_foot.y) + omega * arm_x;
+  const V4 kx = m.contact.plane_strain_modulus * x_in;
+  const V4 hertz = 4.0 / 3 * kx * simd::sqrt(m.sphere_radius_m * kx);
+  V4 normal = hertz * (1 - 1.5 * m.contact.dissipation * vy);
+  if (drop_contacts && m.spheres_of_foot == 2) {
+    for (int leg = 0; leg < PlanarModel::kLegs; ++leg) {
+      const auto center = [&](int i) {
+        return osim::Vec3{state.q(7) + k.origin[3].x[leg] + arm_x[i], y[i], m.sphere_z_m[i]};
+      };
+      const bool in_order = laws::first_sphere_is_swept_first(
+          center(leg), m.sphere_radius_m[leg], center(leg + 2), m.sphere_radius_m[leg + 2]);
+      const int first = in_order ? leg : leg + 2, second = in_order ? leg + 2 : leg;
+      if (depth[first] > 0 && normal[first] <= 0) normal[second] = 0;
+    }
+  }
+  normal = simd::max(normal, zero);
+  const V4 slip = vx < zero ? -vx : vx;
+  const V4 v = slip / m.contact.transition_velocity_m_s;
+  const double us = m.contact.static_friction, ud = m.contact.dynamic_friction;
+  V4 mu =
+      simd::min(v, simd::all(1)) * (us == ud ? simd::all(ud) : ud + 2 * (us - ud) / (1 + v * v)) +
+      m.contact.viscous_friction * slip;
+  mu = vx > zero ? -mu : mu;
+  const V4 friction = normal * mu;
+  const V4 from_x = twice(k.origin[3].x) + arm_x, from_y = twice(k.origin[3].y) + point_y;
+  const V4 turning = from_x * normal - from_y * friction;
+  const FootForces feet{V2{friction[0] + friction[2], friction[1] + friction[3]},
+                        V2{normal[0] + normal[2], normal[1] + normal[3]},
+                        V2{turning[0] + turning[2], turning[1] + turning[3]}};
+  if (!linear) return feet;
+  const auto pushes = normal > zero;
+  const V4 spring = pushes ? 1.5 * normal / x_in : zero;
+  const V4 damper = pushes ? 1.5 * m.contact.dissipation * hertz : zero;
+  const V4 brake = v < simd::all(1) ? normal * (us / m.contact.transition_velocity_m_s) : zero;
+  const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
+  for (int i = 0; i < 2 * m.spheres_of_foot; i += 2) {
+    const auto half = [&](V4 f) { return V2{f[i], f[i + 1]}; };
+    const Pair point{half(from_x), half(from_y)};
+    add_at_foot(linear->stiffness, joint, point, V2{}, V2{}, half(spring));
+    add_at_foot(linear->damping, joint, point, half(brake), V2{}, half(damper));
+  }
+  return feet;
+}
+
+void touch_obstacles(const PlanarModel& m, const std::vector<PlanarObstacle>& obstacles,
+                     const PlanarState& state, const PlanarKinematics& k, FootForces& feet,
+                     PlanarLinear* linear) {
+  for (const PlanarObstacle& o : obstacles) {
+    if (std::abs(o.x_m - state.q(7)) > 2 + o.radius_m) continue;  // no foot reaches that far
+    for (int i = 0; i < 2 * m.spheres_of_foot; ++i) {
+      const int leg = i % 2;
+      const double c = k.cos[3][leg], s = k.sin[3][leg];
+      const double x = k.origin[3].x[leg] + c * m.sphere_x_m[i] - s * m.sphere_y_m[i];
+      const double y = k.origin[3].y[leg] + s * m.sphere_x_m[i] + c * m.sphere_y_m[i];
+      const double dx = x + state.q(7) - o.x_m, dy = y + state.q(8) - o.y_m, dz = m.sphere_z_m[i];
+      const double reach = m.sphere_radius_m[i] + o.radius_m;
+      const double distance2 = dx * dx + dy * dy + dz * dz;
+      if (distance2 >= reach * reach || distance2 == 0) continue;
+      const double distance = std::sqrt(distance2), depth = reach - distance;
+      const double nx = dx / distance, ny = dy / distance;
+      // Half-way in depth, on the line of centres; relative to the pelvis.
+      const double from = m.sphere_radius_m[i] - depth / 2;
+      const double at_x = x - from * nx, at_y = y - from * ny;
+      const double vx = k.velocity_of_foot.x[leg] - k.omega[3][leg] * (at_y - k.origin[3].y[leg]);
+      const double vy = k.velocity_of_foot.y[leg] + k.omega[3][leg] * (at_x - k.origin[3].x[leg]);
+      const double radius = m.sphere_radius_m[i] * o.radius_m / reach;
+      const double force = laws::normal_force(o.law, radius, depth, -(vx * nx + vy * ny));
+      if (force <= 0) continue;
+      feet.x[leg] += force * nx;
+      feet.y[leg] += force * ny;
+      feet.moment[leg] += at_x * force * ny - at_y * force * nx;
+      if (!linear) continue;
+      V2 spring{};
+      spring[leg] = 1.5 * force / depth;
+      const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
+      add_at_foot(linear->stiffness, joint, {both(at_x), both(at_y)}, nx * nx * spring,
+                  nx * ny * spring, ny * ny * spring);
+    }
+  }
+}
+
+}  // namespace stride::planar

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+#include "extract/io/table.h"
+#include "train/network/policy.h"
+#include "train/training/training.h"
+
+namespace stride::training {
+
+/// curve.csv, `# stride curve 1`: one row an evaluation. Columns: decisions, simulated_s, updates,
+/// episodes, falls, failures (all since the beginning); evaluation_distance_m, evaluation_reward,
+/// evaluation_time_s, evaluation_falls (of episodes without noise, means); training_distance_m,
+/// training_reward (means over the episodes with noise that ended since the last row; empty: none);
+/// critic_loss, q, target, actor_gradient, critic_gradient (means over the updates since then).
+Table new_curve();
+std::vector<double> curve_row(const Progress& progress, double simulated_s,
+                              const std::vector<network::EpisodeSummary>& evaluation);
+
+/// timing.csv, `# stride timing 1`: decisions, wall_s (of training, pauses excluded), steps_per_s,
+/// updates_per_s (since the row before).
+Table new_timing();
+
+/// Reads RUN/curve.csv or timing.csv for continuing: its first `rows` rows.
+Table load_rows(const std::filesystem::path& file, const Table& empty, std::int64_t rows);
+
+}  // namespace stride::training

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "calibrate/runner/calibrated.h"
+#include "shaping/potential.h"
+#include "train/training/options.h"
+
+namespace stride::training {
+
+/// What a run of somebody else's gives to training: the potential that shapes the reward, and the
+/// run itself, on which episodes may start (reference state initialisation, Peng et al. 2018).
+struct Demonstration {
+  std::optional<Potential> potential;
+  std::optional<CalibratedTrajectory> reference;
+};
+
+/// Reads NAME.potential.json and, where `options` want episodes to start on the reference
+/// (reference_share > 0), NAME.calibrated.csv beside it or `reference` if that is given. Either may
+/// be empty; without both the demonstration is. Throws Error naming the file that is missing and
+/// the cure, or what of the potential is no run on the model of `options`.
+Demonstration load_demonstration(const std::filesystem::path& potential,
+                                 const std::filesystem::path& reference,
+                                 const EnvironmentOptions& options);
+
+/// The copies in a run folder, as its configuration names them. save() names them in `options`;
+/// the overrides of the potential are applied in loading.
+void save(const Demonstration& demonstration, const std::filesystem::path& run,
+          TrainOptions& options);
+Demonstration load_run_demonstration(const TrainOptions& options, const std::filesystem::path& run);
+
+}  // namespace stride::training

@@ -1,0 +1,322 @@
+#include "train/training/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <variant>
+
+#include "extract/io/error.h"
+#include "extract/io/toml.h"
+
+namespace stride::training {
+namespace fs = std::filesystem;
+namespace {
+
+using Value = std::variant<bool*, int*, std::int64_t*, double*, std::string*, std::vector<int>*>;
+
+/// One line of a config file. A range restricts numbers, a list restricts words.
+struct Field {
+  std::string key, meaning;
+  Value value;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::vector<std::string> words = {};
+};
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+const double kBelowOne = std::nextafter(1.0, 0.0);  // the end of [0, 1)
+
+std::vector<Field> fields(TrainOptions& o) {
+  const std::vector<std::string> activations{"relu", "elu", "tanh"};
+  return {
+      {"run.seed", "of every random number", &o.run.seed, 0},
+      {"run.decisions", "of all environments together; then the run ends", &o.run.decisions, 1},
+      {"run.threads", "0: one a core; the curve does not depend on it", &o.run.threads, 0, 1024},
+      {"run.environments", "that step side by side", &o.run.environments, 1, 4096},
+      {"run.action_repeat", "steps of 0.01 s that an action is held", &o.run.action_repeat, 1, 100},
+      {"run.round", "decisions of each environment between two meetings with the learner",
+       &o.run.round, 1, 10000},
+      {"run.updates_per_decision", "of the networks", &o.run.updates_per_decision, 0, 100},
+      {"run.warm_up", "decisions before the first update", &o.run.warm_up, 0},
+      {"run.evaluate_every", "decisions between two episodes without noise: rows of curve.csv",
+       &o.run.evaluate_every, 1},
+      {"run.evaluation_episodes",
+       "in one evaluation; more than 1 only matter where episodes differ",
+       &o.run.evaluation_episodes, 1, 1000},
+      {"run.checkpoint_s", "seconds of wall clock between two checkpoints", &o.run.checkpoint_s,
+       0.01},
+      {"run.precision",
+       "of states and networks",
+       &o.run.precision,
+       -kInf,
+       kInf,
+       {"float", "double"}},
+
+      {"environment.engine",
+       "of the simulation",
+       &o.environment.engine,
+       -kInf,
+       kInf,
+       {"planar", "simbody"}},
+      {"environment.rules",
+       "clean, or nips2017: the competition with its oddities",
+       &o.environment.rules,
+       -kInf,
+       kInf,
+       {"clean", "nips2017"}},
+      {"environment.model", "an .osim file; empty: the model of Learning to Run",
+       &o.environment.model},
+      {"environment.difficulty", "0: no obstacles; 1: obstacles; 2: and weaker muscles",
+       &o.environment.difficulty, 0, 2},
+      {"environment.max_obstacles", "at difficulty 1 and 2", &o.environment.max_obstacles, 0, 20},
+      {"environment.accuracy", "of the integration", &o.environment.accuracy, 1e-12, 1},
+      {"environment.reference", "file in the run folder on which episodes may start; empty: none",
+       &o.environment.reference},
+      {"environment.reference_share", "of training episodes start on it",
+       &o.environment.reference_share, 0, 1},
+
+      {"observation.centre", "x positions from the pelvis", &o.observation.centre},
+      {"observation.derived", "the 71 features added to the competition's 41",
+       &o.observation.derived},
+      {"observation.activations", "of the runner's own muscles", &o.observation.activations},
+      {"observation.phase", "sine and cosine of the phase of the stride", &o.observation.phase},
+
+      {"reward.scale", "of the environment's reward", &o.reward.scale, 1e-9, 1e9},
+      {"reward.fall", "added to the reward of a fall while training", &o.reward.fall},
+      {"reward.alive_per_s", "added to the reward while training, each simulated second",
+       &o.reward.alive_per_s},
+
+      {"shaping.potential", "file in the run folder; empty: no shaping", &o.shaping.potential},
+      {"shaping.source", "where that file came from: the film finds its video there",
+       &o.shaping.source},
+      {"shaping.scale", "on the file's weight", &o.shaping.scale, 0},
+      {"shaping.epsilon_m", "bounds 1/d; -1: the file's", &o.shaping.epsilon_m, -1},
+      {"shaping.function",
+       "empty: the file's",
+       &o.shaping.function,
+       -kInf,
+       kInf,
+       {"", "pf1", "pf2", "pf3"}},
+      {"shaping.index",
+       "empty: the file's",
+       &o.shaping.index,
+       -kInf,
+       kInf,
+       {"", "time", "nearest"}},
+
+      {"agent.actor_hidden", "neurons of each layer", &o.agent.actor_hidden, 1, 4096},
+      {"agent.critic_hidden", "neurons of each layer", &o.agent.critic_hidden, 1, 4096},
+      {"agent.actor_activation", "", &o.agent.actor_activation, -kInf, kInf, activations},
+      {"agent.critic_activation", "", &o.agent.critic_activation, -kInf, kInf, activations},
+      {"agent.layer_norm", "layer normalisation of hidden layers", &o.agent.layer_norm},
+      {"agent.gamma", "discount a decision; shaping uses the same", &o.agent.gamma, 0, kBelowOne},
+      {"agent.tau", "how far the target networks follow in an update", &o.agent.tau, 0, 1},
+      {"agent.actor_rate", "Adam's step size", &o.agent.actor_rate, 0, 1},
+      {"agent.critic_rate", "Adam's step size", &o.agent.critic_rate, 0, 1},
+      {"agent.final_rate", "share of both rates that is left after decay_decisions",
+       &o.agent.final_rate, 0, 1},
+      {"agent.decay_decisions", "over which the rates fall, linearly", &o.agent.decay_decisions, 1},
+      {"agent.beta2", "Adam's", &o.agent.beta2, 0, kBelowOne},
+      {"agent.weight_decay", "of the critic, decoupled", &o.agent.weight_decay, 0, 1000},
+      {"agent.gradient_norm_limit", "0: none", &o.agent.gradient_norm_limit, 0},
+      {"agent.error_limit", "TD errors beyond it count linearly; 0: never", &o.agent.error_limit,
+       0},
+      {"agent.critics", "1: DDPG; 2: targets take the lower of two", &o.agent.critics, 1, 2},
+      {"agent.n_step", "decisions whose rewards a target adds up", &o.agent.n_step, 1, 1000},
+      {"agent.batch", "decisions in an update", &o.agent.batch, 1, 100000},
+
+      {"exploration.sigma", "of the Ornstein-Uhlenbeck noise on actions at first",
+       &o.exploration.sigma, 0, 10},
+      {"exploration.final_sigma", "after decay_decisions", &o.exploration.final_sigma, 0, 10},
+      {"exploration.decay_decisions", "over which sigma falls, linearly",
+       &o.exploration.decay_decisions, 1},
+      {"exploration.theta", "pull of the noise towards 0 a decision; 1: white",
+       &o.exploration.theta, 1e-6, 1},
+      {"exploration.sigma_ratio", "environments differ in sigma by up to this factor",
+       &o.exploration.sigma_ratio, 1, 1000},
+      {"exploration.noise_free_fraction", "of episodes have no noise",
+       &o.exploration.noise_free_fraction, 0, 1},
+      {"exploration.parameter_share", "of episodes have a perturbed actor instead",
+       &o.exploration.parameter_share, 0, 1},
+      {"exploration.parameter_distance", "root mean square change of its actions",
+       &o.exploration.parameter_distance, 0, 1},
+
+      {"replay.capacity", "decisions kept", &o.replay.capacity, 1},
+      {"replay.mirror", "half of all samples reflected in the sagittal plane", &o.replay.mirror},
+  };
+}
+
+struct Print {
+  std::string operator()(bool* v) const { return *v ? "true" : "false"; }
+  std::string operator()(std::string* v) const { return '"' + *v + '"'; }
+  std::string operator()(std::vector<int>* v) const {
+    return fmt::format("[{}]", fmt::join(*v, ", "));
+  }
+  std::string operator()(auto* v) const { return fmt::format("{}", *v); }
+};
+
+std::string to_text(const Value& value) { return std::visit(Print{}, value); }
+
+template <typename Number>
+bool parse_number(const std::string& text, Number& value) {
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
+/// False where the words of the file are not of the field's kind.
+struct Assign {
+  const std::vector<std::string>& in;
+
+  bool operator()(std::vector<int>* v) const {
+    std::vector<int> list(in.size());
+    for (std::size_t i = 0; i < in.size(); ++i)
+      if (!parse_number(in[i], list[i])) return false;
+    *v = list;
+    return true;
+  }
+  bool operator()(std::string* v) const {
+    if (in.size() > 1) return false;
+    *v = in.empty() ? "" : in[0];
+    return true;
+  }
+  bool operator()(bool* v) const {
+    if (in.size() != 1 || (in[0] != "true" && in[0] != "false")) return false;
+    *v = in[0] == "true";
+    return true;
+  }
+  bool operator()(std::int64_t* v) const {  // 2e6 counts as a whole number
+    double real = 0;
+    if (in.size() != 1) return false;
+    if (parse_number(in[0], *v)) return true;
+    if (!parse_number(in[0], real) || real != std::floor(real) || std::abs(real) > 9e15)
+      return false;
+    *v = static_cast<std::int64_t>(real);
+    return true;
+  }
+  bool operator()(auto* v) const { return in.size() == 1 && parse_number(in[0], *v); }
+};
+
+std::string_view kind(const Value& value) {
+  constexpr std::string_view kinds[] = {"true or false",      "a whole number",
+                                        "a whole number",     "a number",
+                                        "one word in quotes", "a list of whole numbers"};
+  return kinds[value.index()];
+}
+
+/// How many letters apart two keys are (Levenshtein), for the cure of a misspelling.
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+void check_range(const Field& field, double value, const std::string& text) {
+  const bool below_one = field.max == kBelowOne;
+  require(value >= field.min && value <= field.max, "{} = {}: must be in [{}, {}{}", field.key,
+          text, field.min, below_one ? 1 : field.max, below_one ? ')' : ']');
+}
+
+void check_field(const Field& field) {
+  const std::string text = to_text(field.value);
+  if (const auto* v = std::get_if<int*>(&field.value)) check_range(field, **v, text);
+  if (const auto* v = std::get_if<std::int64_t*>(&field.value))
+    check_range(field, static_cast<double>(**v), text);
+  if (const auto* v = std::get_if<double*>(&field.value)) {
+    require(std::isfinite(**v), "{} = {}: must be finite", field.key, text);
+    check_range(field, **v, text);
+  }
+  if (const auto* v = std::get_if<std::vector<int>*>(&field.value))
+    for (const int n : **v) check_range(field, n, text);
+  if (const auto* v = std::get_if<std::string*>(&field.value))
+    require(field.words.empty() || std::ranges::count(field.words, **v) > 0,
+            "{} = {}: must be one of {}", field.key, text, fmt::join(field.words, ", "));
+}
+
+}  // namespace
+
+void TrainOptions::check() const {
+  TrainOptions copy = *this;
+  for (const Field& field : fields(copy)) check_field(field);
+  require(exploration.noise_free_fraction + exploration.parameter_share <= 1,
+          "exploration.noise_free_fraction + exploration.parameter_share = {}: must be at most 1",
+          exploration.noise_free_fraction + exploration.parameter_share);
+}
+
+namespace {
+
+/// Keys of version 0.1.0 that have another name now: runs of then are still read.
+std::string present_key(const std::string& key) {
+  if (key == "exploration.spread") return "exploration.sigma_ratio";
+  if (key == "exploration.quiet_share") return "exploration.noise_free_fraction";
+  return key;
+}
+
+}  // namespace
+
+void set_options(const std::vector<TomlSetting>& settings, const std::string& source,
+                 TrainOptions& options) {
+  std::vector<Field> known = fields(options);
+  for (const TomlSetting& setting : settings) {
+    const std::string key = present_key(setting.key());
+    const auto field = std::ranges::find(known, key, &Field::key);
+    if (field == known.end()) {
+      const auto nearest = std::ranges::min_element(
+          known, {}, [&](const Field& f) { return letters_apart(f.key, key); });
+      throw Error(fmt::format("{}: {}: unknown key; did you mean {}?", source, key, nearest->key));
+    }
+    require(std::visit(Assign{setting.words}, field->value), "{}: {} = {}: must be {}", source, key,
+            fmt::join(setting.words, ", "), kind(field->value));
+  }
+}
+
+void read_toml(const fs::path& file, TrainOptions& options) {
+  set_options(load_toml(file), file.string(), options);
+}
+
+void set_option(std::string_view assignment, TrainOptions& options) {
+  require(assignment.find('=') != std::string_view::npos,
+          "--set {}: must be KEY=VALUE, such as agent.gamma=0.99", assignment);
+  const std::string source = fmt::format("--set {}", assignment);
+  set_options(parse_toml(std::string(assignment) + '\n', source), source, options);
+}
+
+std::string to_toml(const TrainOptions& options, std::string_view heading) {
+  TrainOptions copy = options;
+  std::string text(heading), section;
+  for (const Field& field : fields(copy)) {
+    const auto dot = field.key.find('.');
+    if (dot == std::string::npos) continue;
+    if (field.key.substr(0, dot) != section) {
+      section = field.key.substr(0, dot);
+      text += fmt::format("\n[{}]\n", section);
+    }
+    text += fmt::format("{} = {}", field.key.substr(dot + 1), to_text(field.value));
+    text += field.meaning.empty() ? "\n" : fmt::format("  # {}\n", field.meaning);
+  }
+  return text;
+}
+
+fs::path preset_file(std::string_view name) {
+  const fs::path folder = STRIDE_PRESETS;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+  require(names.contains(std::string(name)), "preset '{}': must be one of {}", name,
+          fmt::join(names, ", "));
+  return folder / fmt::format("{}.toml", name);
+}
+
+}  // namespace stride::training
