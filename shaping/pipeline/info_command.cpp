@@ -132,8 +132,8 @@ std::string about_json(const fs::path& file) {
 }
 
 std::string about_video(const fs::path& file) {
-  const Container container = read_container(file);
-  const VideoTimes times = video_times(file, 1);
+  const video::Container container = video::read_container(file);
+  const video::VideoTimes times = video::video_times(file, 1);
   const std::vector<double>& t = times.times_s;
   double shortest_s = t.size() > 1 ? t[1] - t[0] : 0, longest_s = shortest_s;
   for (std::size_t i = 1; i < t.size(); ++i) {
@@ -147,13 +147,13 @@ std::string about_video(const fs::path& file) {
       times.info.stored_width_px == times.info.width_px
           ? ""
           : fmt::format(", stored {} wide: its pixels are not square", times.info.stored_width_px),
-      container.turn.is_none() ? "" : ", " + text_of(container.turn), t.size(),
+      container.turn.is_none() ? "" : ", " + video::text_of(container.turn), t.size(),
       t.empty() ? 0 : t.back() + (t.size() > 1 ? t.back() - t[t.size() - 2] : 0),
       times.info.rate_hz,
       varies ? fmt::format("; the rate varies: {:.1f} to {:.1f} ms a frame", 1000 * shortest_s,
                            1000 * longest_s)
              : "");
-  if (const std::string doubt = doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
+  if (const std::string doubt = tracking::doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
       !doubt.empty())
     text += doubt + "\n";
   if (!times.shortfall.empty()) text += times.shortfall + "\n";

@@ -73,7 +73,7 @@ std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore&
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);
     if (prediction.stride_frames > 0)
-      prediction.doubt = doubt_of_period(prediction.stride_frames /
+      prediction.doubt = tracking::doubt_of_period(prediction.stride_frames /
                                          (frames.info().rate_hz * keypoints.slow_motion));
   } catch (const GivenUp&) {
     return std::nullopt;

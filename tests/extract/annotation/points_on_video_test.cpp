@@ -18,12 +18,12 @@ using testing::Not;
 const std::filesystem::path kVideo = STRIDE_SOURCE_DIR "/videos/small.mp4";  // 320 x 180, 24 Hz
 
 /// The truth of small.mp4 as a detector would give it.
-Detections truth() {
+imports::Detections truth() {
   const Table table = load_csv(STRIDE_SOURCE_DIR "/videos/small.truth.csv");
-  Detections detections;
+  imports::Detections detections;
   detections.file = "points.csv";
   for (const auto& row : table.rows) {
-    ImportedFrame& frame = detections.frames.emplace_back();
+    imports::ImportedFrame& frame = detections.frames.emplace_back();
     frame.frame = static_cast<int>(row[table.column("frame")]);
     for (const BodyPart part : kBodyParts) {
       const std::string prefix(name(part));
@@ -34,27 +34,28 @@ Detections truth() {
 }
 
 template <typename Move>
-Detections moved(Move move) {
-  Detections detections = truth();
-  for (ImportedFrame& frame : detections.frames)
+imports::Detections moved(Move move) {
+  imports::Detections detections = truth();
+  for (imports::ImportedFrame& frame : detections.frames)
     for (Point& point : frame.points) point.p_px = move(point.p_px);
   return detections;
 }
 
 struct Told {
-  Marked marked;
+  tracking::LabelledClip marked;
   std::string warnings;
 };
-Told told(const Detections& detections, const PointsOnVideoOptions& options = {}) {
+Told told(const imports::Detections& detections,
+          const tracking::PointsOnVideoOptions& options = {}) {
   testing::internal::CaptureStderr();
-  Told result{points_on(kVideo, detections, options), {}};
+  Told result{tracking::points_on(kVideo, detections, options), {}};
   result.warnings = testing::internal::GetCapturedStderr();
   return result;
 }
 
 double farthest_px(const Trajectory& marks) {
   double farthest = 0;
-  const Detections right = truth();
+  const imports::Detections right = truth();
   for (std::size_t i = 0; i < marks.frames.size(); ++i)
     for (const BodyPart part : kBodyParts)
       farthest =
@@ -70,19 +71,19 @@ TEST(PointsOnVideo, ThatFitAreTakenWithoutAWord) {
 }
 
 TEST(PointsOnVideo, OfADeclaredSizeAreScaled) {
-  Detections twice = moved([](const Vector2d& p) -> Vector2d { return 2 * p.array() + 0.5; });
-  for (ImportedFrame& frame : twice.frames) frame.width_px = 640, frame.height_px = 360;
+  imports::Detections twice = moved([](const Vector2d& p) -> Vector2d { return 2 * p.array() + 0.5; });
+  for (imports::ImportedFrame& frame : twice.frames) frame.width_px = 640, frame.height_px = 360;
   const Told declared = told(twice);
   EXPECT_THAT(declared.warnings, HasSubstr("640 x 360"));
   EXPECT_LT(farthest_px(declared.marked.marks), 1e-9);
-  for (ImportedFrame& frame : twice.frames) frame.height_px = 480;
+  for (imports::ImportedFrame& frame : twice.frames) frame.height_px = 480;
   EXPECT_ERROR(told(twice), "another video");
 }
 
 TEST(PointsOnVideo, OfASizeThatTheUserSaysAreScaled) {
-  PointsOnVideoOptions options;
+  tracking::PointsOnVideoOptions options;
   options.import.size_px = {1, 1};
-  const Detections normalised =
+  const imports::Detections normalised =
       moved([](const Vector2d& p) { return Vector2d((p.x() + 0.5) / 320, (p.y() + 0.5) / 180); });
   EXPECT_LT(farthest_px(told(normalised, options).marked.marks), 1e-9);
   EXPECT_THAT(told(normalised).warnings, HasSubstr("normalised coordinates, not pixels"));
@@ -102,19 +103,19 @@ TEST(PointsOnVideo, OfAnotherPictureDoNotFollowIt) {
 }
 
 TEST(PointsOnVideo, OfATrimmedCopyDoNotFollowIt) {
-  Detections early = truth();
+  imports::Detections early = truth();
   early.frames.erase(early.frames.begin(), early.frames.begin() + 6);
-  for (ImportedFrame& frame : early.frames) frame.frame -= 6;
+  for (imports::ImportedFrame& frame : early.frames) frame.frame -= 6;
   const Told result = told(early);
   EXPECT_THAT(result.warnings, HasSubstr("--first-frame -6"));
   EXPECT_THAT(result.warnings, HasSubstr("no points on the last 6"));
-  PointsOnVideoOptions options;
+  tracking::PointsOnVideoOptions options;
   options.import.first_frame = -6;
   EXPECT_EQ(told(early, options).marked.marks.frames.front().frame, 6);
 }
 
 TEST(PointsOnVideo, OutsideThePictureAreLeftOutWhereTheyAreFew) {
-  Detections spoilt = truth();
+  imports::Detections spoilt = truth();
   for (int i = 0; i < 4; ++i)
     spoilt.frames[static_cast<std::size_t>(9 * i)][BodyPart::ankle_l] = {{-250, -456}, 0.9};
   const Told result = told(spoilt);
@@ -125,8 +126,8 @@ TEST(PointsOnVideo, OutsideThePictureAreLeftOutWhereTheyAreFew) {
 }
 
 TEST(PointsOnVideo, CountFramesFromOneWhereThatIsTheOnlyWay) {
-  Detections from_one = truth();
-  for (ImportedFrame& frame : from_one.frames) ++frame.frame;
+  imports::Detections from_one = truth();
+  for (imports::ImportedFrame& frame : from_one.frames) ++frame.frame;
   const Told result = told(from_one);
   EXPECT_THAT(result.warnings, HasSubstr("count from 1"));
   EXPECT_EQ(result.marked.marks.frames.front().frame, 0);
@@ -135,7 +136,7 @@ TEST(PointsOnVideo, CountFramesFromOneWhereThatIsTheOnlyWay) {
 }
 
 TEST(PointsOnVideo, OfAnotherVideoAreRefused) {
-  Detections others = truth();
+  imports::Detections others = truth();
   others.video = "game.mp4";
   others.video_sha256 = std::string(64, 'a');
   EXPECT_ERROR(told(others), "belongs to another video (game.mp4");

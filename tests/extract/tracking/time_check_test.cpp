@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace stride {
+namespace stride::tracking {
 namespace {
 
 using testing::HasSubstr;
@@ -25,4 +25,4 @@ TEST(TimeCheck, TellsWhatTheFileSaysOfItsRates) {
 }
 
 }  // namespace
-}  // namespace stride
+}  // namespace stride::tracking

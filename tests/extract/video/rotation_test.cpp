@@ -49,20 +49,20 @@ TEST(Rotation, ShowsEachCornerWhereTheMatrixPutsIt) {
                                  Matrix{0, 1, 1, 0},  Matrix{0, -1, -1, 0}};
   const TemporaryFolder folder;
   for (const auto& [x, y] : {std::pair{-1, -1}, std::pair{1, -1}}) {
-    VideoWriter writer(folder / "stored.mp4", 25);
+    video::VideoWriter writer(folder / "stored.mp4", 25);
     for (int i = 0; i < 3; ++i) writer.write(corner_lit(x, y));
     writer.finish();
     const std::string stored = read_file(folder / "stored.mp4");
     for (const char* name : {"turned.mp4", "turned.mov"})
       for (const Matrix& m : kMatrices) {
         write_file_atomically(folder / name, with_matrix(stored, m));
-        Video video(folder / name);
+        video::Video decoder(folder / name);
         const bool lies = m.a == 0;
-        EXPECT_EQ(video.info().width_px, lies ? kHeight : kWidth);
-        EXPECT_EQ(video.info().height_px, lies ? kWidth : kHeight);
-        VideoFrame frame;
+        EXPECT_EQ(decoder.info().width_px, lies ? kHeight : kWidth);
+        EXPECT_EQ(decoder.info().height_px, lies ? kWidth : kHeight);
+        video::VideoFrame frame;
         for (int i = 0; i < 3; ++i) {
-          ASSERT_TRUE(video.read(frame));
+          ASSERT_TRUE(decoder.read(frame));
           const auto [shown_x, shown_y] = m.shown(x, y);
           const int w = frame.image.cols, h = frame.image.rows;
           const cv::Rect lit(shown_x < 0 ? 0 : w / 2, shown_y < 0 ? 0 : h / 2, w / 2, h / 2);

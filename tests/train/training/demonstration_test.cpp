@@ -78,7 +78,7 @@ TEST_F(DemonstrationTest, WhatIsNoRunOnThisModelIsRefused) {
     Potential spoilt = some_potential();
     change(spoilt);
     save(spoilt, potential);
-    EXPECT_ERROR(load_demonstration(potential, {}, {}), why);
+    EXPECT_ERROR(training::load_demonstration(potential, {}, {}), why);
   };
   expect_refused([](Potential& p) { p.verdict = "refused: nobody runs here"; },
                  "the clip behind it was refused");
