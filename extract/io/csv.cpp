@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "extract/io/error.h"
-#include "extract/io/trimmed.h"
 
 namespace stride {
 namespace {
@@ -135,6 +134,12 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
         if (has_decimal_comma(cell)) std::ranges::replace(cell, ',', '.');
   if (!is_told) drop_padding(table.lines);
   return table;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 std::optional<double> cell_number(std::string_view cell) {

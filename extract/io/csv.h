@@ -30,6 +30,9 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
 /// The text in UTF-8 without a byte order mark, lines ending in LF.
 std::string decoded_text(std::string_view content, const std::string& file);
 
+/// A cell, or a line, without the blanks, tabs and carriage returns around it.
+std::string_view trimmed(std::string_view text);
+
 /// A finite number, or NaN for an empty cell and for what pandas, R and Excel write where there is
 /// none: nan, NA, N/A, null, None, <NA>, …; nothing for anything else.
 std::optional<double> cell_number(std::string_view cell);

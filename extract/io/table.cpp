@@ -12,7 +12,6 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/file_kind.h"
-#include "extract/io/trimmed.h"
 
 namespace stride {
 namespace {

@@ -9,8 +9,6 @@
 
 namespace stride::tracking {
 
-namespace stride {
-
 /// The motion of a joint over a stride that both legs share, the left half a stride behind: a
 /// Fourier series of four harmonics and an offset for each leg, fitted robustly.
 struct StrideFold {

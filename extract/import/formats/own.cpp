@@ -5,7 +5,6 @@
 #include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
 #include "extract/io/error.h"
-#include "extract/io/trimmed.h"
 
 namespace stride::imports {
 namespace {

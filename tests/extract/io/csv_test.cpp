@@ -16,7 +16,7 @@ using testing::ElementsAre;
 TEST(Csv, ReadsWhateverASpreadsheetMakesOfATable) {
   const std::string utf16 = {'\xff', '\xfe', 'x', 0,   ',', 0,   'y', 0,    '\n',
                              0,      '1',    0,   ',', 0,   '2', 0,   '\n', 0};
-  for (const std::string text :
+  for (const std::string& text :
        {std::string("x,y\n1,2\n"), std::string("x;y\r\n1;2\r\n"), std::string("x\ty\r1\t2"),
         std::string("\xef\xbb\xbfx,y\n1,2"), std::string("\"x\",\"y\"\n\"1\",\"2\"\n"),
         std::string("x,y,\n1,2,\n"), std::string("x,y\n1,2,,\n"), std::string("\n x , y \n\n1,2\n"),

@@ -29,7 +29,7 @@ TEST_F(Outputs, AreNeverInputsUnderWhateverName) {
   const fs::path video = folder_ / "run.mp4";
   fs::create_symlink(video, folder_ / "link.mp4");
   fs::create_hard_link(video, folder_ / "hard.mp4");
-  for (const fs::path name :
+  for (const fs::path& name :
        {video, folder_ / "./x/../run.mp4", folder_ / "link.mp4", folder_ / "hard.mp4"})
     EXPECT_ERROR(check_outputs({video}, {{"--overlay", name, FileKind::video}}),
                  "is an input too and would be overwritten");
