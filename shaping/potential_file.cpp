@@ -4,7 +4,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/file_kind.h"
+#include "extract/io/outputs.h"
 #include "shaping/potential.h"
 
 namespace stride {

@@ -10,7 +10,7 @@
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/file_kind.h"
+#include "extract/io/outputs.h"
 #include "extract/io/option_range.h"
 
 namespace stride::imports {

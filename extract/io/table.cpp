@@ -11,7 +11,7 @@
 #include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/file_kind.h"
+#include "extract/io/outputs.h"
 
 namespace stride {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/io/error.h"
-#include "extract/io/file_kind.h"
+#include "extract/io/outputs.h"
 #include "extract/video/container.h"
 
 namespace stride::video {

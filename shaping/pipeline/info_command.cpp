@@ -10,7 +10,7 @@
 #include "calibrate/runner/calibrated.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/file_kind.h"
+#include "extract/io/outputs.h"
 #include "extract/io/table.h"
 #include "extract/skeleton/keypoints.h"
 #include "extract/skeleton/trajectory.h"
