@@ -48,8 +48,10 @@ Files files_of(const CalibrateCommand& command) {
           command.mot ? base + ".mot" : ""};
 }
 
-void check_files(const CalibrateCommand& command, const Files& files) {
-  check_outputs({command.trajectory, command.video, command.model},
+void check_files(const CalibrateCommand& command, const Trajectory& trajectory,
+                 const Files& files) {
+  const fs::path beside = command.trajectory.parent_path() / fs::path(trajectory.video).filename();
+  check_outputs({command.trajectory, command.video, beside, command.model},
                 {{"-o", files.run, FileKind::calibrated},
                  {"--fitted", command.fitted, FileKind::trajectory},
                  {"--overlay", command.overlay, FileKind::video},
@@ -70,8 +72,8 @@ fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory)
 
 void run(const CalibrateCommand& command) {
   const Files files = files_of(command);
-  check_files(command, files);
   Trajectory trajectory = load_trajectory(command.trajectory);
+  check_files(command, trajectory, files);
   if (!command.direction.empty()) trajectory.direction = command.direction;
   const SagittalModel model = sagittal_model(osim::load_osim(command.model));
   const Calibration result = calibrate(trajectory, model, fit::fit_options(command.size));

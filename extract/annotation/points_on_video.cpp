@@ -153,6 +153,34 @@ void check_y_up(const imports::ImportOptions& said, const video::VideoInfo& info
           said.y_up_height_px);
 }
 
+/// Points of a picture that lies or stands on its head.
+void check_posture(const Trajectory& marks) {
+  Vector2d leg = Vector2d::Zero();
+  for (const TrajectoryFrame& frame : marks.frames)
+    for (const BodyPart ankle : {BodyPart::ankle_r, BodyPart::ankle_l})
+      if (frame[ankle].present() && frame[BodyPart::pelvis].present())
+        leg += frame[ankle].p_px - frame[BodyPart::pelvis].p_px;
+  if (std::abs(leg.x()) > std::abs(leg.y()))
+    warn("the legs lie level: were the points made on the picture turned by 90 degrees?");
+  else if (leg.y() < 0)
+    warn(
+        "the points stand on their heads: were they made on the picture turned by 180 degrees, or "
+        "does their y grow upwards (--y-up)?");
+}
+
+/// Points that may have been made on stored frames, whose pixels are not square.
+void check_aspect(const imports::ImportOptions& said, const video::VideoInfo& info,
+                  Trajectory& marks) {
+  if (said.size_px.size() == 2 || info.stored_width_px >= info.width_px) return;
+  double farthest = 0;
+  for_each_point(marks, [&](const Point& p) { farthest = std::max(farthest, p.p_px.x()); });
+  if (farthest < info.stored_width_px)
+    warn(
+        "the video's pixels are not square: it is stored {} px wide and shown {}; points made on "
+        "the stored frames want --points-size {} {}",
+        info.stored_width_px, info.width_px, info.stored_width_px, info.height_px);
+}
+
 /// Frames at either end of the video on which a detector found nobody.
 void check_cover(int frames, const Trajectory& marks) {
   const int before = marks.frames.front().frame, after = frames - 1 - marks.frames.back().frame;
@@ -219,6 +247,8 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   check_y_up(options.import, info, marks);
   renumber(detections, options.import, static_cast<int>(times_s.size()), marks);
   check_places(info, marks);
+  check_aspect(options.import, info, marks);
+  check_posture(marks);
   check_layout(marks);
   const bool labels = are_labels(marks);
   if (!labels) {

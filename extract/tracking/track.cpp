@@ -48,17 +48,26 @@ std::optional<bool> is_treadmill(const Trajectory& t, double size_px, double per
   return std::abs(displacement.x()) < 0.5 * size_px * strides && rest_px < 0.5 * size_px * strides;
 }
 
-/// The part was said to be absent on the marked frames around this one.
-bool is_absent(const Trajectory& marks, BodyPart part, int frame) {
-  const Point *before = nullptr, *after = nullptr;
+/// On which frames, counted from the first mark, the part was said to be absent on the marked
+/// frames around.
+std::vector<bool> absent_frames(const Trajectory& marks, BodyPart part) {
+  const int first = marks.frames.front().frame, last = marks.frames.back().frame;
+  std::vector<bool> absent(static_cast<std::size_t>(last - first + 1));
+  const auto fill = [&](int from, int to, bool value) {  // both included
+    for (int i = from; i <= to; ++i) absent[static_cast<std::size_t>(i - first)] = value;
+  };
+  const TrajectoryFrame* before = nullptr;
   for (const TrajectoryFrame& mark : marks.frames) {
     const Point& point = mark[part];
     if (!point.present() && point.confidence == 0) continue;  // nothing was said
-    if (mark.frame <= frame) before = &point;
-    if (mark.frame >= frame && after == nullptr) after = &point;
+    const bool was_absent = before == nullptr || !(*before)[part].present();
+    fill(before == nullptr ? first : before->frame + 1, mark.frame - 1,
+         was_absent && !point.present());
+    fill(mark.frame, mark.frame, !point.present());
+    before = &mark;
   }
-  const auto absent = [](const Point* p) { return p == nullptr || !p->present(); };
-  return (before != nullptr || after != nullptr) && absent(before) && absent(after);
+  if (before != nullptr) fill(before->frame + 1, last, !(*before)[part].present());
+  return absent;
 }
 
 double median_rate_hz(const std::vector<double>& times_s) {
@@ -74,12 +83,14 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks,
                                        const std::vector<double>& times_s, double size_px) {
   const int first = marks.frames.front().frame;
   std::vector<TrajectoryFrame> frames(estimates.size());
+  std::array<std::vector<bool>, kBodyPartCount> absent;
+  for (const BodyPart part : kBodyParts) absent[index(part)] = absent_frames(marks, part);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].frame = first + static_cast<int>(i);
     frames[i].time_s = times_s[static_cast<std::size_t>(frames[i].frame)];
     for (const BodyPart part : kBodyParts) {
       const gaussian_process::Estimate& estimate = estimates[i][index(part)];
-      if (!estimate.p_px.allFinite() || is_absent(marks, part, frames[i].frame)) continue;
+      if (!estimate.p_px.allFinite() || absent[index(part)][i]) continue;
       const double relative = 30 * std::sqrt(estimate.variance_px2.mean()) / size_px;
       frames[i][part] = {estimate.p_px, kPriorOnly / (1 + relative * relative)};
     }

@@ -99,6 +99,7 @@ struct Video::Decoder {
   cv::VideoCapture capture;
   VideoInfo info;
   Turn turn;
+  std::vector<double> stamps_s;  // where OpenCV's are not the file's
   double slow_motion = 1;
   cv::Mat stored;  // lies, or has pixels that are not square
   cv::Mat first;   // decoded on opening: only a decoded frame proves that this is a video
@@ -121,7 +122,9 @@ struct Video::Decoder {
 
   /// Presentation time of the frame decoded last, since the first one.
   double stamp() {
-    const double stamp_s = capture.get(cv::CAP_PROP_POS_MSEC) / 1000;
+    const auto i = static_cast<std::size_t>(frames_read);
+    const double stamp_s =
+        i < stamps_s.size() ? stamps_s[i] : capture.get(cv::CAP_PROP_POS_MSEC) / 1000;
     if (frames_read == 0) {
       start_s = stamp_s;
       return 0;
@@ -152,10 +155,12 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   d.turn = container.turn;
   d.info.turn = container.turn;
   d.info.capture_rate_hz = container.capture_rate_hz;
+  if (container.codec == "apng") d.stamps_s = packet_times_s(file);  // OpenCV rounds to a 60th
   cv::Mat first;
   // OpenCV 4.6 turns by 90 degrees the wrong way: https://github.com/opencv/opencv/issues/22088
-  if (!d.capture.open(ffmpeg_name(file), cv::CAP_FFMPEG) ||
-      !d.capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0) || !d.decode(first)) {
+  const bool is_open = d.capture.open(ffmpeg_name(file), cv::CAP_FFMPEG);
+  d.capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
+  if (!is_open || !d.decode(first)) {
     require(!is_mp4_without_index(file),
             "{}: truncated: 0 frames readable, because the index at the end of the file is "
             "missing; copy or record it again",

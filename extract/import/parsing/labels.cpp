@@ -42,10 +42,10 @@ bool is_sided_part(std::string_view letters, BodyPart part) {
       return is_any(part == BodyPart::hip_r, {"hip", "hipjoint"});
     case BodyPart::knee_r:
     case BodyPart::knee_l:
-      return is_any(part == BodyPart::knee_r, {"knee", "kneejoint", "kne"});
+      return is_any(part == BodyPart::knee_r, {"knee", "kneejoint"});
     case BodyPart::ankle_r:
     case BodyPart::ankle_l:
-      return is_any(part == BodyPart::ankle_r, {"ankle", "anklejoint", "ank"});
+      return is_any(part == BodyPart::ankle_r, {"ankle", "anklejoint"});
     case BodyPart::toe_r:
     case BodyPart::toe_l:
       return is_any(part == BodyPart::toe_r,
@@ -74,7 +74,7 @@ LabelMap::LabelMap(std::span<const std::string> labels,
     for (const BodyPart part : kBodyParts)
       if (is_sided_part(letters, part)) targets.push_back({part, kExact});
     if (is_one_of(letters, {"pelvis", "midhip", "hipmid", "hip", "hips", "chip", "hipcenter",
-                            "hipcentre", "centerhip", "root", "sacr", "sacrum"}))
+                            "hipcentre", "centerhip", "root"}))
       targets.push_back({BodyPart::pelvis, kExact});
     if (letters == "head" || letters == "headcenter" || letters == "headcentre")
       targets.push_back({BodyPart::head, kExact});
