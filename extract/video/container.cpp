@@ -5,7 +5,6 @@ extern "C" {
 #include <libavutil/display.h>
 }
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -56,25 +55,6 @@ double capture_rate_hz(const AVDictionary* metadata) {
 
 std::string ffmpeg_name(const std::filesystem::path& file) {
   return "file:" + std::filesystem::absolute(file).string();
-}
-
-std::vector<double> packet_times_s(const std::filesystem::path& file) {
-  AVFormatContext* opened = nullptr;
-  if (avformat_open_input(&opened, ffmpeg_name(file).c_str(), nullptr, nullptr) < 0) return {};
-  const std::unique_ptr<AVFormatContext, Close> context(opened);
-  const int stream = av_find_best_stream(opened, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (stream < 0) return {};
-  const double unit_s = av_q2d(context->streams[stream]->time_base);
-  std::vector<double> times_s;
-  AVPacket* packet = av_packet_alloc();
-  while (packet != nullptr && av_read_frame(opened, packet) == 0) {
-    if (packet->stream_index == stream && packet->pts != AV_NOPTS_VALUE)
-      times_s.push_back(static_cast<double>(packet->pts) * unit_s);
-    av_packet_unref(packet);
-  }
-  av_packet_free(&packet);
-  std::ranges::sort(times_s);
-  return times_s;
 }
 
 Container read_container(const std::filesystem::path& file) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace stride::video {
 
@@ -24,9 +23,6 @@ struct Container {
 
 /// Reads the header alone. Nothing is known of a file that FFmpeg cannot read.
 Container read_container(const std::filesystem::path& file);
-
-/// Presentation times of the frames as the file has them, growing; empty if it cannot be read.
-std::vector<double> packet_times_s(const std::filesystem::path& file);
 
 /// The name of a file as FFmpeg and OpenCV take it: never as the address of a network stream, which
 /// a name such as `10:30.mp4` would be.

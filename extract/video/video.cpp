@@ -11,6 +11,7 @@
 #include "extract/io/error.h"
 #include "extract/io/outputs.h"
 #include "extract/video/container.h"
+#include "extract/video/packet_times.h"
 
 namespace stride::video {
 namespace fs = std::filesystem;
