@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -24,23 +25,7 @@ double standard_deviation(const std::vector<double>& values) {
 
 /// Student's t for a two-sided 95 % interval.
 double student_95(std::size_t degrees) {
-  constexpr std::array kT{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  return degrees <= kT.size() ? kT[degrees - 1] : 1.96;
-}
-
-/// Mean of the evaluations of the twentieth of the budget that ends at `share` of it; an
-/// evaluation happens up to a round after its time. Where there is none, the last before; NaN if
-/// there is none either.
-double distance_at(const Table& curve, double share, double budget) {
-  const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
-  std::vector<double> values;
-  double last = NAN;
-  for (const auto& row : curve.rows) {
-    if (row[x] > (share + 0.005) * budget) break;
-    last = row[y];
-    if (row[x] > (share - 0.045) * budget) values.push_back(last);
-  }
-  return values.empty() ? last : mean(values);
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees)), 0.975);
 }
 
 std::optional<Reached> first_reached(const Table& curve, const Table& timing, double distance_m) {
@@ -53,18 +38,6 @@ std::optional<Reached> first_reached(const Table& curve, const Table& timing, do
     return Reached{row[x], NAN};
   }
   return std::nullopt;
-}
-
-std::string plus_minus(const std::vector<double>& values, int digits) {
-  if (values.empty() || !std::isfinite(mean(values))) return "–";
-  if (values.size() < 2) return fmt::format("{:.{}f}", mean(values), digits);
-  const double error = standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-  return fmt::format("{:.{}f} ± {:.{}f}", mean(values), digits, error, digits);
-}
-
-std::string ratio_text(const PairedRatio& r) {
-  if (!std::isfinite(r.ratio)) return "–";
-  return fmt::format("{:.2f} ({:.2f} … {:.2f})", r.ratio, r.low, r.high);
 }
 
 std::string reached_text(const std::vector<std::optional<Reached>>& seeds) {
@@ -100,7 +73,32 @@ std::string table(const std::vector<ArmResult>& results, std::size_t from,
 
 }  // namespace
 
+std::string plus_minus(const std::vector<double>& values, int digits) {
+  if (values.empty() || !std::isfinite(mean(values))) return "–";
+  if (values.size() < 2) return fmt::format("{:.{}f}", mean(values), digits);
+  const double error = standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+  return fmt::format("{:.{}f} ± {:.{}f}", mean(values), digits, error, digits);
+}
+
+std::string ratio_text(const PairedRatio& r) {
+  if (!std::isfinite(r.ratio)) return "–";
+  return fmt::format("{:.2f} ({:.2f} … {:.2f})", r.ratio, r.low, r.high);
+}
+
+double distance_at(const Table& curve, double decisions, double window) {
+  const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
+  std::vector<double> values;
+  double last = NAN;
+  for (const auto& row : curve.rows) {
+    if (row[x] > decisions + 0.1 * window) break;
+    last = row[y];
+    if (row[x] > decisions - 0.9 * window) values.push_back(last);
+  }
+  return values.empty() ? last : mean(values);
+}
+
 std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions) {
+  const auto budget = static_cast<double>(decisions);
   std::vector<ArmResult> results;
   for (const Arm& arm : arms) {
     ArmResult result{.label = arm.label, .distance_m = {}, .reached = {}};
@@ -109,7 +107,7 @@ std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t dec
       const Table timing = load_table(run / "timing.csv", "timing", 1);
       for (std::size_t k = 0; k < kBudgetShares.size(); ++k)
         result.distance_m[k].push_back(
-            distance_at(curve, kBudgetShares[k], static_cast<double>(decisions)));
+            distance_at(curve, kBudgetShares[k] * budget, kWindowShare * budget));
       for (std::size_t k = 0; k < kDistances_m.size(); ++k)
         result.reached[k].push_back(first_reached(curve, timing, kDistances_m[k]));
     }

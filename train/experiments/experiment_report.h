@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "extract/io/table.h"
 #include "train/experiments/plot.h"
 
 namespace stride::experiments {
@@ -13,6 +14,13 @@ namespace stride::experiments {
 /// Shares of the budget at which arms are compared, and distances in 10 s that they are timed to.
 inline constexpr std::array kBudgetShares{0.1, 0.2, 0.3, 0.5, 1.0};
 inline constexpr std::array kDistances_m{5.0, 10.0, 15.0, 20.0, 25.0};
+/// The share of the budget over which evaluations are averaged.
+inline constexpr double kWindowShare = 0.05;
+
+/// Mean evaluation distance in (decisions − 0.9 window, decisions + 0.1 window], m: an evaluation
+/// happens up to a round after its time. Where the window is empty, the last evaluation before it;
+/// NaN if there is none.
+double distance_at(const Table& curve, double decisions, double window);
 
 /// Where a curve first reached a distance.
 struct Reached {
@@ -38,6 +46,10 @@ struct PairedRatio {
   double ratio = 0, low = 0, high = 0;  // NaN where there are too few seeds, or a distance ≤ 0
 };
 PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<double>& control);
+
+/// Mean ± standard error, and ratio (interval), for a table; "–" where there is none.
+std::string plus_minus(const std::vector<double>& values, int digits);
+std::string ratio_text(const PairedRatio& ratio);
 
 /// results.md: distances, ratios to the first arm and times to distances, as tables.
 std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,

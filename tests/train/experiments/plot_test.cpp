@@ -140,8 +140,12 @@ TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {
   EXPECT_NEAR(same.low, 2, 1e-9);
   const experiments::PairedRatio spread =
       experiments::paired_ratio({std::exp(1.0), std::exp(3.0)}, {1, 1});
-  EXPECT_NEAR(std::log(spread.ratio), 2, 1e-12);  // t = 12.706, s/√2 = 1
-  EXPECT_NEAR(std::log(spread.high), 2 + 12.706, 1e-9);
+  EXPECT_NEAR(std::log(spread.ratio), 2, 1e-12);  // t(1) = 12.7062, s/√2 = 1
+  EXPECT_NEAR(std::log(spread.high), 2 + 12.7062, 1e-4);
+  const double e = std::exp(1.0);
+  const experiments::PairedRatio thirteen = experiments::paired_ratio(
+      {e, e, e, e, e, e, 1, 1 / e, 1 / e, 1 / e, 1 / e, 1 / e, 1 / e}, std::vector<double>(13, 1));
+  EXPECT_NEAR(std::log(thirteen.high), 2.1788 / std::sqrt(13.0), 1e-4);  // t(12) = 2.1788, s = 1
   EXPECT_TRUE(std::isnan(experiments::paired_ratio({1}, {1}).ratio));
 }
 

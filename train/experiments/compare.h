@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stride::experiments {
+
+/// What is compared: folders with one run a seed (ARM/1, ARM/2, …), each with its curve.csv.
+struct CompareOptions {
+  std::vector<std::filesystem::path> arms;      // pooled
+  std::vector<std::filesystem::path> controls;  // of each arm, in the same order; or none at all
+  std::vector<double> decisions;                // where the curves are compared
+  double window = 40000;                        // decisions over which evaluations are averaged
+};
+
+/// A table in Markdown, one row for each number of decisions: the mean distance over all runs and,
+/// with controls, the ratio over the pairs of equal seed in all experiments (geometric mean with
+/// Student's 95 % interval). A pair with a distance ≤ 0 has no ratio and is left out; the table
+/// says how many pairs remain. Throws Error if arms and controls differ in number, a folder has no
+/// runs, or a seed is missing on one side.
+std::string compare(const CompareOptions& options);
+
+}  // namespace stride::experiments
