@@ -2,13 +2,46 @@
 
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
-#include <sstream>
+#include <algorithm>
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 
 namespace stride {
+namespace {
+
+/// A value as text: numbers as the shortest that reads back as the same.
+std::string word_of(const toml::node& node, const std::string& source) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  throw Error(fmt::format("{}:{}: must be a number, a text, true, false or a list of these", source,
+                          node.source().begin.line));
+}
+
+void add_settings(const toml::table& table, const std::vector<std::string>& section,
+                  const std::string& source, std::vector<TomlSetting>& settings) {
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    if (const auto* inner = node.as_table()) {
+      std::vector<std::string> inside = section;
+      inside.push_back(name);
+      add_settings(*inner, inside, source, settings);
+      continue;
+    }
+    TomlSetting setting{section, name, {}, static_cast<int>(key.source().begin.line)};
+    if (const auto* list = node.as_array())
+      for (const toml::node& element : *list) setting.words.push_back(word_of(element, source));
+    else
+      setting.words.push_back(word_of(node, source));
+    settings.push_back(std::move(setting));
+  }
+}
+
+}  // namespace
 
 std::string TomlSetting::key() const {
   return section.empty() ? name : fmt::format("{}.{}", fmt::join(section, "."), name);
@@ -19,17 +52,14 @@ std::vector<TomlSetting> load_toml(const std::filesystem::path& file) {
 }
 
 std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& source) {
-  std::istringstream in(text);
-  std::vector<CLI::ConfigItem> items;
-  try {
-    items = CLI::ConfigTOML().from_config(in);
-  } catch (const CLI::Error& error) {  // CLI11's way to report; ours names the file
-    throw Error(fmt::format("{}: not TOML: {}", source, error.what()));
-  }
   std::vector<TomlSetting> settings;
-  for (CLI::ConfigItem& item : items)
-    if (item.name != "++" && item.name != "--")  // CLI11's marks around a section
-      settings.push_back({std::move(item.parents), std::move(item.name), std::move(item.inputs)});
+  try {
+    add_settings(toml::parse(text), {}, source, settings);
+  } catch (const toml::parse_error& error) {
+    throw Error(
+        fmt::format("{}:{}: not TOML: {}", source, error.source().begin.line, error.description()));
+  }
+  std::ranges::stable_sort(settings, {}, &TomlSetting::line);
   return settings;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -264,6 +265,16 @@ std::string present_key(const std::string& key) {
   return key;
 }
 
+/// KEY=VALUE as TOML: on the command line a word needs no quotes.
+std::string quoted(std::string_view assignment) {
+  constexpr std::array<std::string_view, 4> kWords{"true", "false", "inf", "nan"};
+  const auto at = assignment.find('=') + 1;
+  const std::string_view key = assignment.substr(0, at), value = assignment.substr(at);
+  const bool is_toml =
+      std::ranges::count(kWords, value) > 0 || value.find_first_of("\"'[+-.0123456789") == 0;
+  return is_toml ? std::string(assignment) : fmt::format("{}'{}'", key, value);
+}
+
 }  // namespace
 
 void set_options(const std::vector<TomlSetting>& settings, const std::string& source,
@@ -290,7 +301,7 @@ void set_option(std::string_view assignment, TrainOptions& options) {
   require(assignment.find('=') != std::string_view::npos,
           "--set {}: must be KEY=VALUE, such as agent.gamma=0.99", assignment);
   const std::string source = fmt::format("--set {}", assignment);
-  set_options(parse_toml(std::string(assignment) + '\n', source), source, options);
+  set_options(parse_toml(quoted(assignment), source), source, options);
 }
 
 std::string to_toml(const TrainOptions& options, std::string_view heading) {
