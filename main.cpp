@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <numeric>
 
 #include "calibrate/commands.h"
 #include "extract/commands.h"
@@ -12,6 +14,45 @@
 #include "packaging/manual.h"
 #include "shaping/commands.h"
 #include "train/commands.h"
+
+namespace {
+
+/// Levenshtein's distance.
+std::size_t edits(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t above = row[j + 1];
+      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+/// What is wrong with the command line, and where to read on.
+int explain(const CLI::App& app, int argc, char** argv, const CLI::ParseError& e) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  std::string nearest;
+  bool known = false;
+  for (const CLI::App* each : app.get_subcommands({})) {
+    known = known || each->get_name() == command;
+    if (nearest.empty() || edits(each->get_name(), command) < edits(nearest, command))
+      nearest = each->get_name();
+  }
+  if (known)
+    fmt::print(stderr, "error: {}\nsee: stride {} --help\n", e.what(), command);
+  else if (command.starts_with('-'))
+    fmt::print(stderr, "error: {}\nsee: stride --help\n", e.what());
+  else
+    fmt::print(stderr, "error: '{}' is no command; did you mean stride {}? see: stride --help\n",
+               command, nearest);
+  return 2;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Stride: from a running video to a muscle-driven runner"};
@@ -23,12 +64,16 @@ int main(int argc, char** argv) {
     stride::add_shaping_commands(app);
     stride::add_train_commands(app);
     stride::packaging::add_packaging_commands(app, stride::version());
+    if (argc == 1) {
+      fmt::print("{}", app.help());
+      return 0;
+    }
     stride::parallel::Ranks& ranks = stride::parallel::Ranks::world();
     app.parse(argc, argv);
     ranks.finish();
     return 0;
   } catch (const CLI::ParseError& e) {
-    return app.exit(e);
+    return e.get_exit_code() == 0 ? app.exit(e) : explain(app, argc, argv, e);
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return 1;

@@ -13,7 +13,7 @@ done
 
 packages="
   g++ cmake ninja-build pkg-config ca-certificates git
-  libopencv-dev libeigen3-dev libceres-dev libsimbody-dev
+  libopencv-dev libavformat-dev libeigen3-dev libceres-dev libsimbody-dev
   libpugixml-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libfmt-dev libssl-dev libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
   gnuplot-nox clang-format

@@ -12,6 +12,7 @@
 #include "calibrate/report/report_frames.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 #include "extract/video/overlay.h"
 
 namespace stride {
@@ -26,12 +27,37 @@ struct CalibrateCommand {
   bool force = false, no_picture = false, mot = false;
 };
 
-/// NAME of NAME.trajectory.csv, with its folder.
-fs::path stem(const fs::path& trajectory) {
-  std::string name = trajectory.filename().string();
-  for (const char* ending : {".csv", ".trajectory"})
+/// NAME of NAME.trajectory.csv or NAME.calibrated.csv, with its folder.
+fs::path stem(const fs::path& table) {
+  std::string name = table.filename().string();
+  for (const char* ending : {".csv", ".trajectory", ".calibrated"})
     if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
-  return trajectory.parent_path() / name;
+  return table.parent_path() / name;
+}
+
+/// What is written: reports lie beside the run and have its name.
+struct Files {
+  fs::path run, text, picture, motion;
+};
+Files files_of(const CalibrateCommand& command) {
+  const fs::path run = command.out.empty()
+                           ? fs::path(stem(command.trajectory).string() + ".calibrated.csv")
+                           : command.out;
+  const std::string base = stem(run).string();
+  return {run, base + ".report.txt", command.no_picture ? "" : base + ".report.svg",
+          command.mot ? base + ".mot" : ""};
+}
+
+void check_files(const CalibrateCommand& command, const Trajectory& trajectory,
+                 const Files& files) {
+  const fs::path beside = command.trajectory.parent_path() / fs::path(trajectory.video).filename();
+  check_outputs({command.trajectory, command.video, beside, command.model},
+                {{"-o", files.run, FileKind::calibrated},
+                 {"--fitted", command.fitted, FileKind::trajectory},
+                 {"--overlay", command.overlay, FileKind::video},
+                 {"-o", files.text, FileKind::report},
+                 {"-o", files.picture, FileKind::svg},
+                 {"--mot", files.motion, FileKind::motion}});
 }
 
 /// The video to draw on; empty if none is named and none lies beside the trajectory.
@@ -45,21 +71,18 @@ fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory)
 }
 
 void run(const CalibrateCommand& command) {
+  const Files files = files_of(command);
   Trajectory trajectory = load_trajectory(command.trajectory);
+  check_files(command, trajectory, files);
   if (!command.direction.empty()) trajectory.direction = command.direction;
   const SagittalModel model = sagittal_model(osim::load_osim(command.model));
   const Calibration result = calibrate(trajectory, model, fit::fit_options(command.size));
 
-  const fs::path base = stem(command.trajectory);
-  const fs::path out =
-      command.out.empty() ? fs::path(base.string() + ".calibrated.csv") : command.out;
-  const fs::path beside = out.parent_path() / base.filename();
   const std::string report = report::report_text(trajectory, model, result);
-  write_file_atomically(beside.string() + ".report.txt", report);
+  write_file_atomically(files.text, report);
   fmt::print(stderr, "{}", report);
   if (result.fit.ok && !command.no_picture)
-    report::draw_report(trajectory, model, result, video_of(command, trajectory),
-                        beside.string() + ".report.svg");
+    report::draw_report(trajectory, model, result, video_of(command, trajectory), files.picture);
   if (result.fit.ok && !command.overlay.empty()) {
     const fs::path video = video_of(command, trajectory);
     require(!video.empty(),
@@ -70,13 +93,13 @@ void run(const CalibrateCommand& command) {
   require(!result.verdict.refused || (command.force && result.fit.ok),
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
           command.trajectory.string(), result.verdict.text());
-  save(result.run, out);
+  save(result.run, files.run);
   if (!command.fitted.empty()) {
     save(fitted_px(trajectory, model, result), command.fitted);
     fmt::print("{}\n", command.fitted.string());
   }
-  if (command.mot) report::save_mot(result.run, beside.string() + ".mot");
-  fmt::print("{}\n", out.string());
+  if (command.mot) report::save_mot(result.run, files.motion);
+  fmt::print("{}\n", files.run.string());
 }
 
 }  // namespace

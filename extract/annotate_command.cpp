@@ -9,6 +9,7 @@
 #include <opencv2/highgui.hpp>
 
 #include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/annotation/qt_zoom.h"
 #include "extract/annotation/session/background_tracker.h"
 #include "extract/annotation/session/predict.h"
@@ -76,8 +77,8 @@ void import_clicks(const Request& request, video::FrameStore& frames,
       by_model ? pose::pose_points(request.video, request.pose, options)
                : imports::import_points(from, options);
   frames.wait();
-  const tracking::LabelledClip labelled = tracking::points_on(
-      request.video, detections, video::video_times(request.video, 1), 1, request.repair_legs);
+  const tracking::LabelledClip labelled =
+      tracking::points_on(request.video, detections, {1, request.repair_legs, request.import});
   annotation::Change change{
       fmt::format("points of {}", from.empty() ? "the pose network" : from.filename().string()),
       {},
@@ -149,15 +150,17 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
 }
 
 void run_window(annotation::AnnotationSession& session, annotation::BackgroundTracker& tracker,
-                video::FrameStore& frames) {
+                video::FrameStore& frames, cv::Size size_px) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
   annotation::QtZoom qt_zoom(title);
-  cv::namedWindow(title, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
+  cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_GUI_NORMAL);
+  cv::resizeWindow(title, size_px);
   Window window{session, qt_zoom};
   cv::setMouseCallback(title, on_mouse, &window);
   int decoded = -1;
-  auto last_event = Clock::now();
+  auto last_event = Clock::now(), last_frame = last_event;
+  const auto frame_time = std::chrono::duration<double>(session.frame_s());
   while (!session.done()) {
     tracker.submit(session.keypoints(), session.revision());
     if (auto prediction = tracker.poll()) {
@@ -171,7 +174,19 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
       window.changed = false;
       last_event = Clock::now();
     }
-    const int key = cv::waitKeyEx(15);
+    const cv::Rect shown =
+        cv::getWindowImageRect(title);  // resized, maximised, or cut to the screen
+    if (shown.width > 1 && shown.height > 1 && shown.size() != size_px) {
+      size_px = shown.size();
+      session.resize(size_px);
+      window.changed = true;
+    }
+    if (session.playing() && Clock::now() - last_frame >= frame_time) {
+      last_frame = Clock::now();
+      session.show_next();
+      window.changed = true;
+    }
+    const int key = cv::waitKeyEx(session.playing() ? 2 : 15);
     qt_zoom.take_back();
     if (key >= 0) {
       annotation::AnnotationEvent event;
@@ -196,6 +211,7 @@ void run(Request request) {
     return;
   }
   require(!request.video.empty(), "VIDEO is missing: give the video to annotate");
+  ::setenv("QT_LOGGING_RULES", "default.warning=false", /*overwrite=*/0);  // of XDG_RUNTIME_DIR
   if (request.script.empty()) require_display();
   request.session.canvas_px = {request.window[0], request.window[1]};
   require(request.window[0] >= 800 && request.window[1] >= 500,
@@ -214,7 +230,7 @@ void run(Request request) {
       });
   annotation::AnnotationSession session(journal, frames, request.session);
   if (request.script.empty()) {
-    run_window(session, tracker, frames);
+    run_window(session, tracker, frames, request.session.canvas_px);
   } else {
     frames.wait();
     annotation::run_script(session, request.script, [&] {

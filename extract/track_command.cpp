@@ -8,31 +8,42 @@
 #include <optional>
 
 #include "extract/annotation/points_of_video.h"
+#include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/commands.h"
 #include "extract/commands/detection_options.h"
 #include "extract/import/export.h"
 #include "extract/io/error.h"
+#include "extract/io/option_range.h"
+#include "extract/io/outputs.h"
 #include "extract/pose/pose_points.h"
+#include "extract/tracking/time_check.h"
 #include "extract/tracking/track_score.h"
 #include "extract/video/overlay.h"
+#include "extract/video/video.h"
 
 namespace stride {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t kFewestFrames = 8;
+
 struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
-  double slow_motion = 0;  // 0: as the keypoints say
+  std::optional<double> slow_motion;  // else as the keypoints say
   bool repair_legs = true;
   tracking::TrackOptions track;
   imports::ImportOptions import;
   pose::PoseOptions pose;
 };
 
-/// A line on stderr that is rewritten, only where somebody watches.
+/// A line on stderr that is rewritten where somebody watches.
 void show_progress(int frame, int last) {
+  constexpr int kSeldom = 1000;  // where nobody watches
   if (::isatty(STDERR_FILENO))
     fmt::print(stderr, "\rframe {} of {}{}", frame, last, frame == last ? "\n" : "");
+  else if (frame > 0 && frame % kSeldom == 0)
+    fmt::print(stderr, "frame {} of {}\n", frame, last);
 }
 
 /// The same for the network, with the time that it still needs.
@@ -51,24 +62,35 @@ bool is_detected(const Request& request) {
   return !request.import_from.empty() || request.pose.is_users();
 }
 
+/// Who else is in the file.
+std::string others(const imports::Detections& detections) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(detections.people.size(), 4); ++i) {
+    if (static_cast<int>(i) + 1 == detections.person) continue;
+    const imports::ImportedPerson& person = detections.people[i];
+    text +=
+        fmt::format("{} --person {} ({} frames from {} to {})", text.empty() ? "; others:" : ",",
+                    i + 1, person.frames, person.first_frame, person.last_frame);
+  }
+  return text;
+}
+
 /// The points of another program or of a pose model on the frames of the video.
 tracking::LabelledClip detected(const Request& request) {
   require(request.import_from.empty() || !request.pose.wanted,
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
-  const double slow_motion = request.slow_motion > 0 ? request.slow_motion : 1;
-  const video::VideoTimes times = video::video_times(request.video, slow_motion);
   imports::ImportOptions options = request.import;
-  if (options.rate_hz == 0) options.rate_hz = times.info.rate_hz;
+  if (options.rate_hz == 0) options.rate_hz = video::Video(request.video).info().rate_hz;
   const imports::Detections detections =
       request.pose.model.empty() ? imports::import_points(request.import_from, options)
                                  : pose::pose_points(request.video, request.pose, options);
-  fmt::print(stderr, "{}: {} frames of {}, person {} of {}\n",
+  fmt::print(stderr, "{}: {} frames of {}, person {} of {}{}\n",
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
-             detections.people.size());
-  tracking::LabelledClip labelled =
-      tracking::points_on(request.video, detections, times, slow_motion, request.repair_legs);
+              detections.people.size(), others(detections));
+  tracking::LabelledClip labelled = tracking::points_on(
+      request.video, detections, {request.slow_motion.value_or(1), request.repair_legs, options});
   labelled.points = "import";
   return labelled;
 }
@@ -77,7 +99,7 @@ tracking::LabelledClip detected(const Request& request) {
 tracking::LabelledClip clicked_or_seen(const Request& request) {
   tracking::PointsOptions options;
   options.keypoints = request.keypoints;
-  options.slow_motion = request.slow_motion;
+  options.slow_motion = request.slow_motion.value_or(0);
   options.network = request.pose.wanted;
   options.landmarks = request.pose.model;
   options.person = request.import.person;
@@ -91,10 +113,15 @@ void report(const tracking::Tracked& tracked) {
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
-             "stride period {:.3f} s, noise of the marks {:.1f} px, flow believed on {:.0f} % of "
-             "the unmarked points\n",
+             "stride {}, noise of the marks {:.1f} px, flow believed on {:.0f} % of the unmarked "
+             "points\n",
              tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
-             legs.period_s, legs.noise_px, 100 * tracked.summary.inlier);
+             tracked.summary.labelled_frames < static_cast<int>(kFewestFrames)
+                 ? "period not known"
+                 : fmt::format("period {:.3f} s", legs.period_s),
+             legs.noise_px, 100 * tracked.summary.inlier);
+  if (const std::string doubt = tracking::doubt_of_period(legs.period_s); !doubt.empty())
+    fmt::print(stderr, "warning: {}\n", doubt);
   std::vector<double> residuals;
   for (const TrajectoryFrame& frame : t.frames)
     if (frame.camera_px.allFinite()) residuals.push_back(frame.camera_residual_px);
@@ -109,19 +136,53 @@ void report(const tracking::Tracked& tracked) {
     fmt::print(stderr, "warning: {}\n", shortfall);
 }
 
+/// What `--export` writes.
+FileKind exported_kind(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension == ".csv") return FileKind::points_csv;
+  if (extension == ".json") return FileKind::points_json;
+  return extension == ".trc" ? FileKind::trc : FileKind::missing;
+}
+
+fs::path trajectory_file(const Request& request) {
+  if (!request.out.empty() || !request.export_to.empty()) return request.out;
+  return fs::path(request.video).replace_extension(".trajectory.csv");
+}
+
+void check_files(const Request& request) {
+  check_outputs({request.video, request.keypoints, keypoints_file_of(request.video),
+                 request.import_from, request.prior, request.score, request.pose.model},
+                {{"-o", trajectory_file(request), FileKind::trajectory},
+                 {"--overlay", request.overlay, FileKind::video},
+                 {"--export", request.export_to, exported_kind(request.export_to)}});
+}
+
 void run(Request request) {
+  check_files(request);
   if (!request.score.empty()) {
     fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
     return;
   }
   const tracking::LabelledClip labelled =
       is_detected(request) ? detected(request) : clicked_or_seen(request);
+  const std::size_t frames = labelled.marks.frames.size();
+  require(frames != 1, "one frame is marked: that tells no motion; mark {} or more", kFewestFrames);
+  if (frames < kFewestFrames)
+    fmt::print(stderr,
+               "warning: {} frames are marked: too short for a stride, {} or more tell one\n",
+               frames, kFewestFrames);
   std::optional<Trajectory> prior;
   if (!request.prior.empty()) prior = load_trajectory(request.prior);
   request.track.prior = prior ? &*prior : nullptr;
   video::DecodeOptions watching;
   watching.progress = show_progress;
   watching.crops = request.track.flow;
+  if (labelled.slow_motion == 1) {
+    const video::VideoInfo info = video::Video(request.video).info();
+    if (const std::string doubt = tracking::doubt_of_rates(info.capture_rate_hz, info.rate_hz);
+        !doubt.empty())
+      fmt::print(stderr, "warning: {}\n", doubt);
+  }
   const tracking::Tracked tracked =
       tracking::track(request.video, labelled, request.track, watching);
   report(tracked);
@@ -133,11 +194,9 @@ void run(Request request) {
   if (!request.export_to.empty()) {
     imports::export_points(tracked.trajectory, request.export_to);
     fmt::print("{}\n", request.export_to.string());
-    if (request.out.empty()) return;
   }
-  const fs::path out = request.out.empty()
-                           ? fs::path(request.video).replace_extension(".trajectory.csv")
-                           : request.out;
+  const fs::path out = trajectory_file(request);
+  if (out.empty()) return;
   save(tracked.trajectory, out);
   fmt::print("{}\n", out.string());
 }
@@ -166,8 +225,10 @@ void add_track_command(CLI::App& app) {
   command.add_option("--overlay", request->overlay, "draw the points on the video: an .mp4");
   command.add_option("--prior", request->prior,
                      "a trajectory in pixels that predicts the motion, as of a fitted body model");
-  command.add_option("--slow-motion", request->slow_motion,
-                     "seconds of video a second of the runner (default: as the clicks say)");
+  command
+      .add_option("--slow-motion", request->slow_motion,
+                  "seconds of video a second of the runner (default: as the clicks say)")
+      ->check(in_range(0.05, 100));
   command.add_flag("--keep-marks", request->track.keep_marks,
                    "go exactly through every click instead of averaging their noise out");
   command.add_flag("!--no-flow", request->track.flow, "do not look at the picture between clicks");

@@ -5,6 +5,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 #include "shaping/potential.h"
 
 namespace stride {
@@ -131,6 +132,10 @@ void check(const Potential& potential, const std::string& origin) {
 Potential load_potential(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string content = read_file(path);
+  const FileKind kind = kind_of_content(std::string_view(content).substr(0, 8192));
+  require(!is_binary(kind) && kind != FileKind::text && kind != FileKind::empty,
+          "{}: is {}, a potential is needed; make one of a video with `stride convert`", file,
+          name(kind));
   require(!content.starts_with("# stride"),
           "{}: is a table, a potential is needed; make one with `stride convert {} -o DIR`", file,
           file);

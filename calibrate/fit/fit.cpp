@@ -45,7 +45,7 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
   StrideFit best;
   best.failure = "no stride repeats: too few marks of pelvis, knees and ankles";
   // Several starts: a stride that is right explains more than a third of it or three of them.
-  for (const PeriodGuess& guess : guess_periods(observations, 3)) {
+  for (const StridePeriod& guess : guess_periods(observations, 3)) {
     StrideFit fit = start(problem, guess);
     settle(problem, fit, Loss::cauchy, 2, kCoarse);
     if (fit.ok && (!best.ok || fit.sigma_px < 0.9 * best.sigma_px)) best = std::move(fit);

@@ -11,23 +11,23 @@ FitOptions fit_options(const RunnerSize& size) {
       size.height_m.has_value() + size.leg_m.has_value() + size.metres_per_pixel.has_value();
   require(given <= 1, "height, leg, scale: {} of them are given: give the one you know best",
           given);
-  const auto positive = [](const char* name, double value, double most) {
-    require(std::isfinite(value) && value > 0 && value <= most, "{} = {}: must be in (0, {}]", name,
-            value, most);
+  const auto check = [](const char* name, double value, double least, double most) {
+    require(value >= least && value <= most, "{} = {}: must be in [{}, {}] m", name, value, least,
+            most);
   };
   FitOptions options;
   if (size.height_m) {
-    positive("height", *size.height_m, 3);
+    check("height", *size.height_m, 0.4, 3);
     // Of a known height only the proportion is uncertain: 0.476 (measured runners) to 0.491
     // (Drillis and Contini 1966).
     options.leg_m = {0.4835 * *size.height_m, 0.025};
   }
   if (size.leg_m) {
-    positive("leg", *size.leg_m, 2);
+    check("leg", *size.leg_m, 0.2, 1.5);
     options.leg_m = {*size.leg_m, 0.005};
   }
   if (size.metres_per_pixel) {
-    positive("scale", *size.metres_per_pixel, 1);
+    check("scale", *size.metres_per_pixel, 1e-5, 0.2);
     options.metres_per_pixel = size.metres_per_pixel;
   }
   return options;

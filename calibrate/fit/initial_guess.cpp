@@ -2,13 +2,15 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
 #include "extract/io/statistics.h"
 #include "extract/skeleton/fourier_series.h"
-#include "extract/skeleton/robust_fit.h"
+#include "extract/skeleton/robust_linear_fit.h"
 
 namespace stride::fit {
 namespace {
@@ -44,13 +46,8 @@ std::vector<Relative> relative_marks(const Marks& all, BodyPart right) {
 /// Two rows of coefficients, x and y, of the series of one part.
 using Curve = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
-struct CurveFit {
-  Curve curve;
-  double spread_px = 0;  // median distance of the marks
-};
-
-/// Robust linear fit of a part's series at a period: least squares reweighted by Cauchy's weights.
-CurveFit fit_curve(const std::vector<Relative>& marks, double period_s, int harmonics) {
+/// The series of a part at a period, right and left half a cycle apart.
+Curve fit_curve(const std::vector<Relative>& marks, double period_s, int harmonics) {
   const auto n = static_cast<Eigen::Index>(marks.size());
   MatrixXd rows(n, 2 * harmonics + 1);
   MatrixXd values(n, 2);
@@ -60,29 +57,7 @@ CurveFit fit_curve(const std::vector<Relative>& marks, double period_s, int harm
         fourier_basis(mark.u_s / period_s + (mark.side > 0 ? 0 : 0.5), harmonics).transpose();
     values.row(i) = mark.d_px.transpose();
   }
-  CurveFit fit;
-  const auto weighted_fit = [&](const VectorXd& weights) -> VectorXd {
-    const MatrixXd weighted = weights.asDiagonal() * rows;
-    MatrixXd normal = rows.transpose() * weighted;
-    normal.diagonal().array() += 1e-9 * normal.diagonal().maxCoeff();
-    fit.curve = normal.ldlt().solve(weighted.transpose() * values);
-    return (values - rows * fit.curve).rowwise().norm();
-  };
-  fit.spread_px =
-      robust_fit(VectorXd::Ones(n), {.rounds = 6, .least_spread = 5e-10}, weighted_fit).spread;
-  return fit;
-}
-
-/// Median distance of the marks from their own median: what a period has to explain.
-double spread(const std::vector<Relative>& marks) {
-  std::vector<double> x, y, distance;
-  for (const Relative& mark : marks) {
-    x.push_back(mark.d_px.x());
-    y.push_back(mark.d_px.y());
-  }
-  const Vector2d middle(median(x), median(y));
-  for (const Relative& mark : marks) distance.push_back((mark.d_px - middle).norm());
-  return median(distance);
+  return robust_linear_fit(rows, values, VectorXd::Ones(n), 1e-9).coefficients;
 }
 
 Vector2d at(const Curve& curve, double phase) {
@@ -111,43 +86,31 @@ double angle_near(const Vector2d& v, const Vector2d& zero, double previous) {
 
 }  // namespace
 
-std::vector<PeriodGuess> guess_periods(const Marks& all, int count) {
-  const auto ankles = relative_marks(all, BodyPart::ankle_r),
-             knees = relative_marks(all, BodyPart::knee_r);
-  if (ankles.size() < 12 || knees.size() < 12) return {};
-  const double longest = std::min(3.0, all.duration_s), shortest = 0.2;
-  if (longest <= shortest) return {};
-  const double ankle_spread = spread(ankles), knee_spread = spread(knees);
-  const double step = 1 + std::clamp(0.05 * 0.6 / all.duration_s, 0.002, 0.02);
-  std::vector<PeriodGuess> tried;
-  for (double period = shortest; period <= longest; period *= step) {
-    const double left =
-        fit_curve(ankles, period, 3).spread_px + fit_curve(knees, period, 3).spread_px;
-    const double ratio = left / std::max(ankle_spread + knee_spread, 1e-9);
-    tried.push_back({period, 1 - ratio * ratio});
-  }
-  std::ranges::stable_sort(tried, std::greater{}, &PeriodGuess::explained);
-  std::vector<PeriodGuess> best;
-  for (const PeriodGuess& guess : tried) {
-    const bool is_new = std::ranges::none_of(best, [&](const PeriodGuess& other) {
-      return std::abs(std::log(guess.period_s / other.period_s)) < 0.15;
-    });
-    if (is_new) best.push_back(guess);
-    if (static_cast<int>(best.size()) == count) break;
-  }
-  return best;
+std::vector<StridePeriod> guess_periods(const Marks& all, int count) {
+  const std::size_t frames = all.u_s.size();
+  const Vector2d absent = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const std::array parts{BodyPart::ankle_r, BodyPart::knee_r};
+  std::vector joints(parts.size(), std::vector<JointPair>(frames, {{absent, absent}, {1, 1}}));
+  std::vector<Vector2d> pelvis(frames, absent);
+  for (const Mark& mark : all.points)
+    if (mark.part == BodyPart::pelvis) pelvis[static_cast<std::size_t>(mark.frame)] = mark.z_px;
+  for (const Mark& mark : all.points)
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      if (mark.part == parts[j] || mark.part == mirrored(parts[j])) {
+        const auto i = static_cast<std::size_t>(mark.frame);
+        joints[j][i].p_px[side_of(mark.part) > 0 ? 0 : 1] = mark.z_px - pelvis[i];
+      }
+  return stride_periods(joints, all.u_s, LegNames::trusted, count);
 }
 
 Runner guess_runner(const Marks& all, const SagittalModel& model, double period_s, double leg_m) {
   constexpr int kSamples = 64;
   const Directions directions(model);
-  const Curve knee =
-                  fit_curve(relative_marks(all, BodyPart::knee_r), period_s, kGuessHarmonics).curve,
-              ankle = fit_curve(relative_marks(all, BodyPart::ankle_r), period_s, kGuessHarmonics)
-                          .curve;
+  const Curve knee = fit_curve(relative_marks(all, BodyPart::knee_r), period_s, kGuessHarmonics),
+              ankle = fit_curve(relative_marks(all, BodyPart::ankle_r), period_s, kGuessHarmonics);
   const bool toes = all.sees(BodyPart::toe_r) || all.sees(BodyPart::toe_l);
   Curve toe = ankle;
-  if (toes) toe = fit_curve(relative_marks(all, BodyPart::toe_r), period_s, kGuessHarmonics).curve;
+  if (toes) toe = fit_curve(relative_marks(all, BodyPart::toe_r), period_s, kGuessHarmonics);
 
   std::vector<double> thigh_px, shank_px, foot_px, thigh, shank, foot;
   double previous_thigh = 0, previous_shank = -0.7, previous_foot = -0.7;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "extract/io/statistics.h"
+#include "extract/tracking/time_check.h"
 
 namespace stride::gait {
 namespace {
@@ -61,25 +62,76 @@ void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
   }
 }
 
+/// From the pelvis to both ankles, on average.
+Eigen::Vector2d mean_leg_px(const Trajectory& trajectory) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double n = 0;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    for (const BodyPart ankle : {BodyPart::ankle_r, BodyPart::ankle_l})
+      if (frame[ankle].present() && frame[BodyPart::pelvis].present()) {
+        sum += frame[ankle].p_px - frame[BodyPart::pelvis].p_px;
+        ++n;
+      }
+  return sum / std::max(n, 1.0);
+}
+
+/// Legs hang down from a pelvis that is between the hips.
+void judge_posture(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+  const Eigen::Vector2d leg = mean_leg_px(trajectory);
+  if (leg.y() < 0 && -leg.y() > std::abs(leg.x()))
+    verdict.refuse(
+        "knees are above the pelvis: the clip stands on its head; turn it (points whose y grows "
+        "upwards: stride track --import … --y-up)");
+  else if (std::abs(leg.x()) > std::abs(leg.y()))
+    verdict.refuse(
+        "the legs lie level: the clip, or the picture that its points were made on, is turned by "
+        "90 degrees; turn it");
+  std::vector<double> off;
+  for (const TrajectoryFrame& frame : trajectory.frames) {
+    const Point &right = frame[BodyPart::hip_r], &left = frame[BodyPart::hip_l];
+    if (right.present() && left.present() && frame[BodyPart::pelvis].present())
+      off.push_back((frame[BodyPart::pelvis].p_px - 0.5 * (right.p_px + left.p_px)).norm() /
+                    leg_px);
+  }
+  if (off.size() >= 3 && median(off) > 0.35)
+    verdict.refuse(fmt::format(
+        "the pelvis is {:.0f} % of a leg from the middle of the hips: are the points on the right "
+        "joints, or of another layout (OpenPose's BODY_25B)?",
+        100 * median(off)));
+}
+
+bool is_normalised(const Trajectory& trajectory) {
+  return std::ranges::all_of(trajectory.frames, [](const TrajectoryFrame& frame) {
+    return std::ranges::all_of(frame.points, [](const Point& point) {
+      return !point.present() || point.p_px.lpNorm<Eigen::Infinity>() <= 2;
+    });
+  });
+}
+
 /// How far the ankles swing, in legs: a runner's reach two thirds fore and aft.
 void judge_view(const Trajectory& trajectory, Verdict& verdict) {
-  double leg = 0, below = 0, fore_aft = 0, vertical = 0;
+  double leg = 0, fore_aft = 0, vertical = 0;
   for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
                                     std::pair{BodyPart::knee_l, BodyPart::ankle_l}}) {
     leg += 0.5 * (median_length(trajectory, BodyPart::pelvis, knee) +
                   median_length(trajectory, knee, ankle));
-    below += 0.5 * median(differences(trajectory, knee, BodyPart::pelvis, 1));
     fore_aft += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 0));
     vertical += 0.5 * spread(differences(trajectory, ankle, BodyPart::pelvis, 1));
+  }
+  if (is_normalised(trajectory)) {
+    verdict.refuse("all points lie between 0 and 2: normalised coordinates, not pixels");
+    return;
   }
   if (!(leg > 10)) {
     verdict.refuse(fmt::format("legs are {:.0f} px long: ten are needed; use a larger video", leg));
     return;
   }
-  if (below < 0) verdict.refuse("knees are above the pelvis: the clip stands on its head; turn it");
+  judge_posture(trajectory, leg, verdict);
   if (fore_aft < 0.3 * leg && vertical < 0.12 * leg)
-    verdict.refuse(fmt::format("the feet move by {:.0f} % of a leg: nobody runs here",
-                               100 * std::hypot(fore_aft, vertical) / leg));
+    verdict.refuse(fmt::format(
+        "the feet move by {:.0f} % of a leg: nobody runs here; if the file of points holds others, "
+        "take another person (stride track --import … --person 2)",
+        100 * std::hypot(fore_aft, vertical) / leg));
   else if (fore_aft < 0.45 * leg)
     verdict.refuse(
         fmt::format("the feet swing by {:.0f} % of a leg fore and aft, a runner's by 100 "
@@ -170,35 +222,66 @@ double apparent_gravity(const fit::StrideFit& fit) {
   return -least / 9.81;
 }
 
-void judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
+/// What no runner does.
+void judge_heights(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  constexpr double kMost_m = 0.35;  // in a step; runners' pelvis rises by 0.06 to 0.13
+  if (gait.vertical_oscillation_m > kMost_m)
+    verdict.refuse(
+        fmt::format("the pelvis rises and falls by {:.2f} m in a step, a runner's by a tenth: are "
+                    "the marks on the right joints, does the camera shake?",
+                    gait.vertical_oscillation_m));
+  if (gait.speed_m_s < 0.2)
+    verdict.alarm(
+        fmt::format("the foot that stands goes back by {:.2f} m/s: a run on the spot, or "
+                    "marks on wrong joints?",
+                    gait.speed_m_s));
+  const double ratio = fit.runner.body[body::thigh] / fit.runner.body[body::shank];
+  if (ratio < 0.65 || ratio > 1.5)
+    verdict.alarm(fmt::format(
+        "the thigh is {:.2f} times the shank: a character, or marks on wrong joints", ratio));
+}
+
+/// One alarm may be a runner of an odd kind; several together are no runner.
+void judge_alarms(Verdict& verdict) {
+  constexpr int kMost = 3;
+  if (verdict.refused || verdict.alarms <= kMost) return;
+  const std::string reasons = fmt::format("{}", fmt::join(verdict.reasons, "; "));
+  verdict.refuse(fmt::format("{} things are unlike a runner: {}", verdict.alarms, reasons));
+}
+
+/// Whether the clip's time is the runner's. Returns whether it plays slowly, which then explains
+/// all that is odd about falling and speed.
+bool judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
   const double period = fit.runner.cadence[cadence::period_s];
-  if (strides < 1)
+  if (strides < 0.9)
     verdict.refuse(fmt::format("{:.2f} strides are seen: one is needed, two to be sure", strides));
   else if (strides < 1.5)
     verdict.note(
-        fmt::format("only {:.1f} strides are seen: nothing tells whether they repeat", strides));
+        fmt::format("only {:.2f} strides are seen: nothing tells whether they repeat", strides));
   if (gait.walks)
     verdict.note(
         fmt::format("this is walking: a foot stands for {:.0f} % of the stride", 100 * gait.duty));
+  constexpr double kImpossible_s = 0.36;  // 5.6 steps a second
   const double shortest = gait.walks ? 0.75 : 0.45, longest = gait.walks ? 1.8 : 1.05;
-  if (period < shortest || period > longest)
-    verdict.note(
-        fmt::format("a stride takes {:.2f} s, people's {} to {} s: is the frame rate or the "
-                    "slow-motion factor right?",
-                    period, shortest, longest));
-  constexpr double kSprint_m_s = 8;
-  if (gait.speed_m_s > kSprint_m_s)
-    verdict.note(
-        fmt::format("{:.1f} m/s is a sprint: is the frame rate, the slow-motion factor or the "
-                    "runner's size (--leg) right?",
-                    gait.speed_m_s));
+  if (const std::string doubt = tracking::doubt_of_period(period, shortest, longest);
+      !doubt.empty())
+    period < kImpossible_s ? verdict.refuse(doubt) : verdict.alarm(doubt);
+  return period > longest;
+}
+
+void judge_speed(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+  constexpr double kSprint_m_s = 8, kRecord_m_s = 12.5;  // Bolt's fastest 20 m: 12.4
+  constexpr const char* kCure =
+      "is the frame rate, the slow-motion factor (--slow-motion) or the runner's size (--leg) "
+      "right?";
+  if (gait.speed_m_s > kRecord_m_s)
+    verdict.refuse(fmt::format("{:.1f} m/s is faster than anybody: {}", gait.speed_m_s, kCure));
+  else if (gait.speed_m_s > kSprint_m_s)
+    verdict.alarm(fmt::format("{:.1f} m/s is a sprint: {}", gait.speed_m_s, kCure));
   const double gravity = apparent_gravity(fit);
   if (!gait.walks && fit.vertical_oscillation.peak_to_peak_m() > 0.02 &&
       (gravity < 0.45 || gravity > 3))
-    verdict.note(
-        fmt::format("the runner falls with {:.1f} g: is the frame rate, the slow-motion factor "
-                    "or the runner's size (--leg) right?",
-                    gravity));
+    verdict.alarm(fmt::format("the runner falls with {:.1f} g: {}", gravity, kCure));
 }
 
 }  // namespace
@@ -241,7 +324,7 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
                     "the right joints?",
                     100 * relative));
   else if (relative > 0.05)
-    verdict.note(
+    verdict.alarm(
         fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
   if (fit.backward)
     verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
@@ -252,22 +335,19 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
   if (fit.outlier_fraction > 0.3)
     verdict.refuse(outliers);
   else if (fit.outlier_fraction > 0.12)
-    verdict.note(outliers);
-  judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict);
+    verdict.alarm(outliers);
+  if (!judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict))
+    judge_speed(fit, gait, verdict);
   judge_scene(trajectory, leg_px, verdict);
   judge_cuts(trajectory, observations, fit, leg_px, verdict);
   judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
   if (gait.correlation < 0.6)
-    verdict.note(
+    verdict.alarm(
         fmt::format("hip and knee move unlike a human runner's (correlation {:.2f}): are the marks "
                     "on the right joints, is the frame rate or the slow-motion factor right?",
                     gait.correlation));
-  const double ratio = r.body[body::thigh] / r.body[body::shank];
-  if (ratio < 0.65 || ratio > 1.5)
-    verdict.note(
-        fmt::format("the thigh is {:.2f} times the shank: a character, or marks on wrong "
-                    "joints",
-                    ratio));
+  judge_heights(fit, gait, verdict);
+  judge_alarms(verdict);
 }
 
 }  // namespace stride::gait

@@ -14,9 +14,14 @@ namespace stride::gait {
 struct Verdict {
   bool refused = false;
   std::vector<std::string> reasons;  // each with what to do about it
+  int alarms = 0;                    // reasons that are unlike a runner
 
   void refuse(std::string reason);
   void note(std::string reason) { reasons.push_back(std::move(reason)); }
+  void alarm(std::string reason) {
+    note(std::move(reason));
+    ++alarms;
+  }
   /// "ok", "ok, but …; …", or "refused: …".
   std::string text() const;
 };

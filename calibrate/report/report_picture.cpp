@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "calibrate/gait/human_running.h"
@@ -13,6 +12,7 @@
 #include "calibrate/report/report_frames.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/gnuplot.h"
 
 namespace stride::report {
 namespace {
@@ -222,40 +222,23 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Runs gnuplot on a script; its complaints become the error.
-void run_gnuplot(const std::string& script) {
-  std::FILE* pipe = ::popen("gnuplot 2>/dev/null", "w");
-  require(pipe != nullptr, "gnuplot cannot be started: install the package gnuplot-nox");
-  std::fwrite(script.data(), 1, script.size(), pipe);
-  const int status = ::pclose(pipe);
-  require(status == 0,
-          "gnuplot failed (status {}): install the package gnuplot-nox, or leave the "
-          "picture out with --no-picture",
-          status);
-}
-
 }  // namespace
 
 void draw_report(const Trajectory& trajectory, const SagittalModel& model, const Calibration& c,
                  const std::filesystem::path& video, const std::filesystem::path& file) {
-  const std::string name = file.string();
-  require(name.find('\'') == std::string::npos, "{}: a picture's name must not hold a quote", name);
   const Directions directions(model);
-  const std::string drawn = name + ".part";
-  std::string script = fmt::format(
-      "set terminal svg size {},{} background rgb 'white' font 'DejaVu Sans,11'\n"
-      "set output '{}'\n{}",
-      kWidth_px, kHeight_px, drawn, kStyle);
+  std::string script =
+      fmt::format("set terminal svg size {},{} background rgb 'white' font 'DejaVu Sans,11'\n{}",
+                  kWidth_px, kHeight_px, kStyle);
   int label = 0;
   const auto write = [&](const std::string& text, double x, double y, const char* how) {
-    script += fmt::format("set label {} \"{}\" at screen {},{} {} noenhanced\n", ++label, text, x,
-                          y, how);
+    script += fmt::format("set label {} {} at screen {},{} {} noenhanced\n", ++label,
+                          gnuplot_string(text), x, y, how);
   };
-  std::string title = fmt::format(
+  const std::string title = fmt::format(
       "{}: stride {:.3f} ± {:.3f} s, {:.2f} m/s, {} harmonics, {:.2f} px rms ({:.1f} cm)",
       trajectory.video, c.run.period_s, 1.96 * c.run.period_sd_s, c.run.speed_m_s, c.fit.harmonics,
       c.fit.rms_px, 100 * c.run.rms_m);
-  std::erase(title, '"');
   write(title, 0.02, 0.985, "font ',13'");
   write("bands: 95 %; points: marks; grey: measured runners at 3.8 to 4 m/s", 0.98, 0.985,
         "right font ',10' textcolor rgb '#777777'");
@@ -267,9 +250,7 @@ void draw_report(const Trajectory& trajectory, const SagittalModel& model, const
   script += poses(c) + angles(c) + (video.empty() ? kPoses : "") + kTime;
   script += "unset label\n";
   script += part_panels() + kAngles;
-  run_gnuplot(script);
-  std::string svg = read_file(drawn);
-  std::filesystem::remove(drawn);
+  std::string svg = run_gnuplot(script);
   const std::size_t end = svg.rfind("</svg>");
   if (!video.empty() && end != std::string::npos)
     svg.insert(end, fmt::format("<image x='{}' y='{}' width='{}' height='{}' "

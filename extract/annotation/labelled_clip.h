@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "extract/import/import.h"
 #include "extract/tracking/track.h"
 
 namespace stride::tracking {
@@ -19,12 +18,6 @@ struct LabelledClip {
 /// such video, where it was not clicked, or where it is not the one that was clicked.
 LabelledClip clicks_on(const std::filesystem::path& video,
                        const std::filesystem::path& keypoints_file, double slow_motion);
-
-/// The points of another program or of a pose model as marks. Where they are a detector's (on most
-/// frames), right and left are repaired if `with_legs_repaired`, and what was swapped is told on
-/// stderr.
-LabelledClip points_on(const std::filesystem::path& video, const imports::Detections& detections,
-                       const video::VideoTimes& times, double slow_motion, bool with_legs_repaired);
 
 /// Follows the marks through the frames of their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const LabelledClip& labelled,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "extract/annotation/journal.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/io/error.h"
 #include "extract/pose/network_points.h"
 #include "extract/pose/weights.h"
@@ -28,8 +29,7 @@ LabelledClip seen_by_network(const fs::path& video, const PointsOptions& options
   const pose::NetworkPoints points = pose::network_points(video, network);
   tell(video.string(), points);
   const double slow_motion = options.slow_motion > 0 ? options.slow_motion : 1;
-  LabelledClip seen = points_on(video, points.detections, video::video_times(video, slow_motion),
-                                slow_motion, options.repair_legs);
+  LabelledClip seen = points_on(video, points.detections, {slow_motion, options.repair_legs, {}});
   seen.points = "network";
   return seen;
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "extract/io/error.h"
+#include "extract/io/option_range.h"
 #include "extract/skeleton/body_part.h"
 
 namespace stride {
@@ -11,10 +12,15 @@ void add_import_options(CLI::App& command, imports::ImportOptions& options) {
   command
       .add_option("--format", options.format, "Format of the imported file, if not told from it")
       ->check(CLI::IsMember(imports::import_formats()));
-  command.add_option("--person", options.person,
-                     "Which person of the imported file: 1 the largest sustained, 2 the next, …");
-  command.add_option("--min-confidence", options.min_confidence,
-                     "Imported points below this count as absent");
+  command
+      .add_option("--person", options.person,
+                  "Which person of the imported file: 1 the largest sustained, 2 the next, …")
+      ->check(in_range(1, 1000));
+  command
+      .add_option("--min-confidence", options.min_confidence,
+                  "Imported points below this count as absent")
+      ->check(in_range(0, 1))
+      ->capture_default_str();
   command
       .add_option_function<std::vector<std::string>>(
           "--labels",
@@ -28,10 +34,30 @@ void add_import_options(CLI::App& command, imports::ImportOptions& options) {
           },
           "Names in the imported file, PART=LABEL,…")
       ->delimiter(',');
-  command.add_option("--y-up", options.y_up_height_px,
-                     "The imported file's y grows upwards; height of the video in px");
-  command.add_option("--import-rate", options.rate_hz,
-                     "Frame rate of the video in Hz, for files that say times and no frames");
+  command
+      .add_option("--y-up", options.y_up_height_px,
+                  "The imported file's y grows upwards; height of the video in px")
+      ->check(in_range(1, 100000));
+  command
+      .add_option_function<double>(
+          "--import-rate",
+          [&options](double rate_hz) {
+            options.rate_hz = rate_hz;
+            options.rate_was_given = true;
+          },
+          "Frame rate of the video in Hz, for files that say times and no frames")
+      ->check(in_range(0.1, 100000));
+  command
+      .add_option("--points-size", options.size_px,
+                  "Size of the picture that the points were made on, if not the video's: WIDTH "
+                  "HEIGHT")
+      ->expected(2)
+      ->check(in_range(1, 100000));
+  command
+      .add_option("--first-frame", options.first_frame,
+                  "Number that the imported file gives the video's first frame (default: told from "
+                  "the file: 0 or 1)")
+      ->check(in_range(-1e6, 1e9));
 }
 
 void add_pose_options(CLI::App& command, pose::PoseOptions& options) {

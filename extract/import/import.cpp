@@ -9,36 +9,65 @@
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
+#include "extract/io/option_range.h"
 
 namespace stride::imports {
 namespace fs = std::filesystem;
 namespace {
 
-/// Which format a file is, from its first bytes. Empty: none that we know.
-std::string sniff(std::string_view content) {
-  const auto start = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+/// Which format a text is. Empty: none that we know.
+std::string sniff(std::string_view content, const std::string& file) {
+  const auto start = content.find_first_not_of(" \t\n");
   if (start == std::string_view::npos) return "";
-  const std::string_view head = content.substr(start, 4096);
-  const std::string_view line = head.substr(0, head.find('\n'));
   const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
-  if (head.front() == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
-  if (head.front() == '{') {
+  if (content[start] == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
+  if (content[start] == '{') {
     if (has("\"people\"")) return "openpose";
     if (has("\"instance_info\"")) return "mmpose";
     if (has("\"annotations\"")) return "coco";
     return has("\"stride points\"") ? "json" : "";
   }
-  if (head.front() == '<') return has("<annotations") ? "cvat" : "";
-  if (line.starts_with("scorer") || line.starts_with("bodyparts")) return "deeplabcut";
-  if (line.starts_with("track,frame_idx")) return "sleap";
-  if (line.starts_with("PathFileType")) return "trc";
-  if (line.starts_with("Time") || line.starts_with("\"Time\"")) return "kinovea";
-  if (line.find("_cam1_X") != line.npos) return "dltdv";
-  if (line.starts_with("# stride trajectory") || line.starts_with("frame,")) return "csv";
-  return "";
+  if (content[start] == '<') return has("<annotations") ? "cvat" : "";
+  const TextTable table = read_text_table(content.substr(0, content.find('\n', 16384)), file);
+  if (table.lines.empty()) return "";
+  const std::vector<std::string>& cells = table.lines.front().cells;
+  const std::string& first = cells.front();
+  const auto names = [&](std::string_view name) {
+    return std::ranges::any_of(cells, [&](const auto& c) { return c.find(name) != c.npos; });
+  };
+  if (first == "scorer" || first == "bodyparts") return "deeplabcut";
+  if (first == "track" && names("frame_idx")) return "sleap";
+  if (first.starts_with("PathFileType")) return "trc";
+  if (first == "Time") return "kinovea";
+  if (names("_cam1_X")) return "dltdv";
+  return first == "frame" ? "csv" : "";
 }
 
-DetectedPeople read_openpose_folder(const fs::path& folder) {
+/// What to do with a file of another kind. Throws Error if it holds no text at all.
+void require_text(FileKind kind, const std::string& file) {
+  require(kind != FileKind::empty, "{}: is empty", file);
+  const auto cure = [&]() -> std::string_view {
+    switch (kind) {
+      case FileKind::hdf5:
+        return "DeepLabCut: analyze_videos(…, save_as_csv=True); SLEAP: export the analysis CSV";
+      case FileKind::kinovea_xml:
+        return "Kinovea: export the trajectories as CSV";
+      case FileKind::zip:
+        return "save the sheet as CSV";
+      case FileKind::c3d:
+        return "export TRC in pixels";
+      case FileKind::video:
+        return "give it as VIDEO";
+      default:
+        return "export the points as CSV or JSON";
+    }
+  };
+  require(!is_binary(kind) && kind != FileKind::kinovea_xml && kind != FileKind::svg,
+          "{}: is {}; expected points as text: {}", file, name(kind), cure());
+}
+
+ImportedFile read_openpose_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
@@ -46,20 +75,20 @@ DetectedPeople read_openpose_folder(const fs::path& folder) {
           "{}: a folder without .json files: expected OpenPose's NAME_000000000012_keypoints.json",
           folder.string());
   std::ranges::sort(files);
-  DetectedPeople people;
+  ImportedFile content;
   for (const fs::path& file : files) {
     const auto frame = last_number(file.stem().string());
     require(frame.has_value(),
             "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints"
             ".json",
             file.string());
-    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame);
-    people.insert(people.end(), more.begin(), more.end());
+    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame).people;
+    content.people.insert(content.people.end(), more.begin(), more.end());
   }
-  return people;
+  return content;
 }
 
-using Reader = DetectedPeople (*)(std::string_view, const std::string&, const ImportOptions&);
+using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
 
 /// Every format by its name.
 const std::vector<std::pair<std::string, Reader>>& readers() {
@@ -101,22 +130,27 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
   std::string format = options.format;
   require(format.empty() || std::ranges::find(import_formats(), format) != import_formats().end(),
           "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
-  DetectedPeople people;
+  ImportedFile content;
   if (fs::is_directory(path)) {
     require(format.empty() || format == "openpose",
             "{}: is a folder; a folder is read as OpenPose's, not as {}", path.string(), format);
     format = "openpose";
-    people = read_openpose_folder(path);
+    content = read_openpose_folder(path);
   } else {
-    const std::string content = read_file(path);
-    if (format.empty()) format = sniff(content);
+    require(fs::is_regular_file(path), "{}: is not a file", path.string());
+    require_text(kind_of(path), path.string());
+    const std::string text = decoded_text(read_file(path), path.string());
+    if (format.empty()) format = sniff(text, path.string());
     require(!format.empty(),
             "{}:1: not a format of points that is known; expected one of {} (see --format)",
             path.string(), fmt::join(import_formats(), ", "));
     const auto reader = std::ranges::find(readers(), format, [](const auto& r) { return r.first; });
-    people = reader->second(content, path.string(), options);
+    content = reader->second(text, path.string(), options);
   }
-  Detections detections = take_person(std::move(people), options, path.string());
+  require(!options.rate_was_given || format == "kinovea",
+          "--import-rate {}: files of {} say frames, not times: it has no effect, leave it out",
+          options.rate_hz, format);
+  Detections detections = take_person(std::move(content), options, path.string());
   detections.format = format;
   return detections;
 }

@@ -82,6 +82,13 @@ void write_file_atomically(const fs::path& file, std::string_view content) {
     fs::create_directories(file.parent_path(), error);
     require(!error, "{}: its folder cannot be created ({})", file.string(), error.message());
   }
+  require(!fs::is_directory(file), "{}: is a folder: name a file in it", file.string());
+  if (fs::exists(file) && !fs::is_regular_file(file)) {  // /dev/stdout is written, not replaced
+    std::ofstream out(file, std::ios::binary);
+    out << content << std::flush;
+    require(out.good(), "{}: cannot be written ({})", file.string(), std::strerror(errno));
+    return;
+  }
   TemporaryFile temporary(file);
   temporary.write(content);
   temporary.commit();

@@ -6,83 +6,66 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/trimmed.h"
+#include "extract/io/outputs.h"
 
 namespace stride {
 namespace {
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 std::optional<double> number(std::string_view text) {
-  if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
-  if (text.front() == '+') text.remove_prefix(1);
-  double value = 0;
+  if (const auto value = cell_number(text)) return value;
+  double value = 0;  // ours may be infinite
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
 
+/// The format and version of a table in one of its comments, or metadata.
+void read_comment(const TextLine& comment, Table& table, const std::string& file) {
+  const std::string_view line = comment.cells.front();
+  if (table.format.empty() && line.starts_with("stride ")) {
+    const auto space = line.rfind(' ');
+    const auto version = number(line.substr(space + 1));
+    require(space > 7 && version.has_value() && std::abs(*version) < 1e9,
+            "{}:{}: expected '# stride FORMAT VERSION', found '# {}'", file, comment.number, line);
+    table.format = trimmed(line.substr(7, space - 7));
+    table.version = static_cast<int>(*version);
+  } else if (const auto colon = line.find(':'); colon != std::string_view::npos) {
+    table.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  }
+}
+
 /// Reads the lines of a table: `# ` lines first, then the header, then the rows.
 Table parse(std::string_view content, const std::string& file) {
+  const TextTable text = read_text_table(content, file);
   Table table;
   table.file = file;
-  int line_number = 0;
-  while (!content.empty()) {
-    const auto newline = content.find('\n');
-    std::string_view line = trimmed(content.substr(0, newline));
-    content.remove_prefix(newline == std::string_view::npos ? content.size() : newline + 1);
-    ++line_number;
-    if (line.empty()) continue;
-    if (line.front() == '#') {
-      line = trimmed(line.substr(1));
-      if (table.format.empty() && table.columns.empty() && line.starts_with("stride ")) {
-        const auto space = line.rfind(' ');
-        const auto version = number(line.substr(space + 1));
-        require(space > 7 && version.has_value() && std::abs(*version) < 1e9,
-                "{}:{}: expected '# stride FORMAT VERSION', found '# {}'", file, line_number, line);
-        table.format = trimmed(line.substr(7, space - 7));
-        table.version = static_cast<int>(*version);
-      } else if (const auto colon = line.find(':'); colon != std::string_view::npos) {
-        table.metadata.emplace_back(trimmed(line.substr(0, colon)),
-                                    trimmed(line.substr(colon + 1)));
-      }
-      continue;
-    }
-    const auto cells = split(line);
-    if (table.columns.empty()) {
-      table.columns.assign(cells.begin(), cells.end());
-      for (auto name = table.columns.begin(); name != table.columns.end(); ++name)
-        require(std::find(table.columns.begin(), name, *name) == name,
-                "{}:{}: column '{}' appears twice", file, line_number, *name);
-      continue;
-    }
-    require(cells.size() == table.columns.size(),
-            "{}:{}: {} cells, but the header names {} columns", file, line_number, cells.size(),
-            table.columns.size());
+  for (const TextLine& comment : text.comments) read_comment(comment, table, file);
+  require(!text.lines.empty(), "{}: has no header line: expected comma-separated names of columns",
+          file);
+  const TextLine& header = text.lines.front();
+  table.columns = header.cells;
+  for (auto name = table.columns.begin(); name != table.columns.end(); ++name)
+    require(std::find(table.columns.begin(), name, *name) == name,
+            "{}:{}: column '{}' appears twice", file, header.number, *name);
+  for (std::size_t l = 1; l < text.lines.size(); ++l) {
+    const TextLine& line = text.lines[l];
+    require(line.cells.size() == table.columns.size(),
+            "{}:{}: {} cells, but the header names {} columns", file, line.number,
+            line.cells.size(), table.columns.size());
     std::vector<double>& row = table.rows.emplace_back();
-    row.reserve(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto value = number(cells[i]);
+    row.reserve(line.cells.size());
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+      const auto value = number(line.cells[i]);
       require(value.has_value(), "{}:{}: column {} = '{}': must be a number or empty", file,
-              line_number, table.columns[i], cells[i]);
+              line.number, table.columns[i], line.cells[i]);
       row.push_back(*value);
     }
   }
-  require(!table.columns.empty(),
-          "{}: has no header line: expected comma-separated names of columns", file);
   return table;
 }
 
@@ -129,6 +112,11 @@ Table load_csv(const std::filesystem::path& file) { return parse(read_file(file)
 
 Table load_table(const std::filesystem::path& file, std::string_view format, int version,
                  std::string_view cure) {
+  const FileKind kind = kind_of(file);
+  require(!is_binary(kind) && kind != FileKind::json && kind != FileKind::keypoints &&
+              kind != FileKind::potential,
+          "{}: is {}, a {} file is needed{}{}", file.string(), name(kind), format,
+          cure.empty() ? "" : "; ", cure);
   Table table = load_csv(file);
   require(!table.format.empty(),
           "{}: not a file of ours: expected '# stride {} {}' in the first line", file.string(),
@@ -141,11 +129,23 @@ Table load_table(const std::filesystem::path& file, std::string_view format, int
   return table;
 }
 
+namespace {
+
+/// On one line, or it would be read as something else.
+std::string on_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20; }, ' ');
+  return text;
+}
+
+}  // namespace
+
 void save(const Table& table, const std::filesystem::path& file) {
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   if (!table.format.empty()) fmt::format_to(to, "# stride {} {}\n", table.format, table.version);
-  for (const auto& [key, value] : table.metadata) fmt::format_to(to, "# {}: {}\n", key, value);
+  for (const auto& [key, value] : table.metadata)
+    fmt::format_to(to, "# {}: {}\n", key, on_one_line(value));
   fmt::format_to(to, "{}\n", fmt::join(table.columns, ","));
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -71,7 +71,7 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
   video::Video frames(video);
   const cv::Rect2d whole(-0.5, -0.5, frames.info().width_px, frames.info().height_px);
   std::optional<cv::Rect2d> box = pose.box_px;
-  imports::DetectedPeople people;
+  imports::ImportedFile content;
   for (video::VideoFrame frame; frames.read(frame);) {
     const std::vector<PosePerson> found =
         network.find(frame.image, box ? grown(*box, sidecar.padding) : whole);
@@ -79,13 +79,14 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
       const std::vector<Point> points = points_of(found[i], sidecar.min_confidence);
       if (i == 0 && box) follow(points, *box);
       imports::DetectedPerson person{frame.index, "", map.parts(points)};
-      if (std::ranges::any_of(person.points, &Point::present)) people.push_back(person);
+      if (std::ranges::any_of(person.points, &Point::present)) content.people.push_back(person);
     }
   }
-  require(!people.empty(), "{}: finds nobody in {}; is it the picture's colour order or scale? {}",
+  require(!content.people.empty(),
+          "{}: finds nobody in {}; is it the picture's colour order or scale? {}",
           pose.model.string(), video.string(), sidecar_file.string());
   imports::Detections detections =
-      imports::take_person(std::move(people), options, pose.model.string());
+      imports::take_person(std::move(content), options, pose.model.string());
   detections.format = "pose";
   return detections;
 }

@@ -1,14 +1,15 @@
 #include "extract/tracking/stride_fold.h"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "extract/io/statistics.h"
-#include "extract/skeleton/fourier_series.h"
-#include "extract/skeleton/robust_fit.h"
+/// Seen from the side both legs swing about the same place. A weight of this share of all points on
+/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
+/// one another, so that one is always in front, would fit as well.
+constexpr double kSidesAlike = 0.25;
+#include "extract/skeleton/robust_linear_fit.h"
 
 namespace stride::tracking {
 namespace {
@@ -16,14 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using Basis = Eigen::Matrix<double, 10, 1>;
 
-constexpr double kShortest_s = 0.4, kLongest_s = 1.7, kScanStep = 1.01;
-constexpr double kUsual_s = 0.75, kSpread = 0.35;  // of periods, log-normal
-constexpr int kReweightings = 4;
-/// Seen from the side both legs swing about the same place. A weight of this share of all points on
-/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
-/// one another, so that one is always in front, would fit as well.
-constexpr double kSidesAlike = 0.25;
-constexpr std::size_t kMostPeaks = 4;  // of periods that are alike
+constexpr int kMostAlike = 4;  // periods that the spacing of the frames makes alike
 
 /// Offsets of right and left, then cosine and sine of each harmonic.
 Basis basis(double time_s, int side, double period_s) {
@@ -33,115 +27,16 @@ Basis basis(double time_s, int side, double period_s) {
   return b;
 }
 
-/// Robust least squares of several signals over the same rows, by Cauchy weights. `sides_alike`
-/// weighs the squared difference of the first two coefficients.
-struct Fit {
-  Eigen::MatrixXd coefficients;        // a column a signal
-  double spread = 0;                   // median distance
-  double negative_log_likelihood = 0;  // −log likelihood without constants
-};
-Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
-        double least_spread, double sides_alike = 0) {
-  Fit fit;
-  const auto weighted_fit = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
-    Eigen::MatrixXd normal = rows.transpose() * w.asDiagonal() * rows;
-    normal.diagonal().array() += 1e-3;
-    normal.topLeftCorner<2, 2>() += sides_alike * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
-    fit.coefficients = normal.llt().solve(rows.transpose() * w.asDiagonal() * signals);
-    return (signals - rows * fit.coefficients).rowwise().norm();
-  };
-  const RobustFit robust =
-      robust_fit(weights, {.rounds = kReweightings, .least_spread = least_spread}, weighted_fit);
-  fit.spread = robust.spread;
-  fit.negative_log_likelihood =
-      (weights.array() *
-       (std::log(fit.spread) + (robust.distances / (2 * fit.spread)).array().square().log1p()))
-          .sum();
-  return fit;
-}
+      const RobustLinearFit joint_fit =
+          robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
 
-/// −log probability of a period before anything is seen.
-double improbability(double period_s) {
-  return 0.5 * std::pow(std::log(period_s / kUsual_s) / kSpread, 2);
-}
-
-/// What does not change when right and left are exchanged: sum and squared difference of the two
-/// sides, which repeat every step. A row a frame on which both were seen.
-struct Invariants {
-  std::vector<double> times_s;
-  Eigen::MatrixXd signals;
-  Eigen::VectorXd weights;
-};
-Invariants invariants(const std::vector<JointPair>& joint, const std::vector<double>& times_s) {
-  Invariants result;
-  std::vector<Eigen::Matrix<double, 5, 1>> rows;
-  std::vector<double> weights;
-  double squared = 1e-9;
-  for (std::size_t i = 0; i < joint.size(); ++i) {
-    const Vector2d &r = joint[i].p_px[0], &l = joint[i].p_px[1];
-    if (!r.allFinite() || !l.allFinite()) continue;
-    const double dx = r.x() - l.x(), dy = r.y() - l.y();
-    Eigen::Matrix<double, 5, 1> row;
-    row << r.x() + l.x(), r.y() + l.y(), dx * dx - dy * dy, 2 * dx * dy, dx * dx + dy * dy;
-    rows.push_back(row);
-    weights.push_back(std::min(joint[i].weight[0], joint[i].weight[1]));
-    result.times_s.push_back(times_s[i]);
-    squared += dx * dx + dy * dy;
-  }
-  const double size = std::sqrt(squared / std::max<double>(1, static_cast<double>(rows.size())));
-  result.signals.resize(static_cast<Eigen::Index>(rows.size()), 5);
-  result.weights.resize(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].tail<3>() /= size;
-    result.signals.row(static_cast<Eigen::Index>(i)) = rows[i];
-    result.weights[static_cast<Eigen::Index>(i)] = weights[i];
-  }
-  return result;
-}
-
-struct Period {
-  double period_s, cost;  // −log probability of the invariants
-};
-
-/// Whether another period can look the same at these times: four of them in the shortest tell.
+/// Whether another period can look the same at these times: four of them in the shortest of a
+/// runner tell.
 bool has_aliases(const std::vector<double>& times_s) {
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps_s.push_back(times_s[i] - times_s[i - 1]);
-  return median(steps_s) > kShortest_s / 4;
-}
-
-/// The period that explains the invariants best, or several where it has aliases; none if the clip
-/// is too short to tell.
-std::vector<Period> likely_periods(const std::vector<std::vector<JointPair>>& joints,
-                                   const std::vector<double>& times_s) {
-  std::vector<Invariants> seen;
-  for (const auto& joint : joints)
-    if (Invariants one = invariants(joint, times_s); one.times_s.size() >= 12)
-      seen.push_back(std::move(one));
-  if (seen.empty()) return {};
-  const double longest_s = std::min(kLongest_s, times_s.back() - times_s.front());
-  std::vector<Period> scan, peaks;
-  for (double period_s = kShortest_s; period_s <= longest_s; period_s *= kScanStep) {
-    double cost = improbability(period_s);
-    for (const Invariants& one : seen) {
-      Eigen::MatrixXd rows(one.signals.rows(), 7);
-      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        Eigen::Matrix<double, 7, 1> row = Eigen::Matrix<double, 7, 1>::Ones();
-        fourier_waves(4 * std::numbers::pi * one.times_s[static_cast<std::size_t>(i)] / period_s,
-                      {row.data() + 1, 6});
-        rows.row(i) = row;
-      }
-      cost += fit(rows, one.signals, one.weights, 0.5).negative_log_likelihood;
-    }
-    scan.push_back({period_s, cost});
-  }
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if ((i == 0 || scan[i].cost <= scan[i - 1].cost) &&
-        (i + 1 == scan.size() || scan[i].cost < scan[i + 1].cost))
-      peaks.push_back(scan[i]);
-  std::ranges::sort(peaks, {}, &Period::cost);
-  peaks.resize(std::min(peaks.size(), has_aliases(times_s) ? kMostPeaks : 1));
-  return peaks;
+      const RobustLinearFit joint_fit =
+          robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
 }
 
 }  // namespace
@@ -183,7 +78,8 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
     double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
     if (n > 0) {
-      const Fit joint_fit = fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
+      const RobustLinearFit joint_fit =
+          robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
       coefficients = {joint_fit.coefficients.col(0), joint_fit.coefficients.col(1)};
       spread_px = joint_fit.spread;
       result.negative_log_likelihood += joint_fit.negative_log_likelihood;
@@ -199,19 +95,22 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
 std::optional<StrideFold> fold_stride(const std::vector<std::vector<JointPair>>& joints,
                                       const std::vector<double>& times_s) {
   if (times_s.size() < 12) return std::nullopt;
-  std::vector<Period> periods = likely_periods(joints, times_s);
+  std::vector<StridePeriod> periods =
+      stride_periods(joints, times_s, LegNames::unknown, has_aliases(times_s) ? kMostAlike : 1);
   if (periods.empty()) return std::nullopt;
   // Seen a little from the front or the back the legs differ: two strides then pass for one. With
   // names, a wrong factor of two puts the legs in step, which fits badly; so does a period that
   // only the spacing of the frames makes likely.
-  if (const auto [period_s, cost] = periods.front(); period_s / 2 >= kShortest_s)
-    periods.push_back({period_s / 2, cost});
+  const StridePeriod best_period = periods.front();
+  if (const double half_s = best_period.period_s / 2; half_s >= kShortestOfRunners_s)
+    periods.push_back({half_s, best_period.cost - period_improbability(best_period.period_s) +
+                                   period_improbability(half_s)});
   std::optional<Folded> best;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto [period_s, cost] : periods)
-    if (Folded next = fold_at(joints, times_s, period_s);
-        cost + next.negative_log_likelihood < least) {
-      least = cost + next.negative_log_likelihood;
+  for (const StridePeriod& period : periods)
+    if (Folded next = fold_at(joints, times_s, period.period_s);
+        period.cost + next.negative_log_likelihood < least) {
+      least = period.cost + next.negative_log_likelihood;
       best = std::move(next);
     }
   return best->fold;

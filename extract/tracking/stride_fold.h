@@ -5,13 +5,9 @@
 #include <optional>
 #include <vector>
 
-namespace stride::tracking {
+#include "extract/skeleton/stride_period.h"
 
-/// One joint of both legs relative to the pelvis on one frame; NaN where it was not seen.
-struct JointPair {
-  std::array<Eigen::Vector2d, 2> p_px;  // right, left
-  std::array<double, 2> weight;         // 0 … 1
-};
+namespace stride::tracking {
 
 /// The motion of a joint over a stride that both legs share, the left half a stride behind: a
 /// Fourier series of four harmonics and an offset for each leg, fitted robustly.

@@ -48,17 +48,26 @@ std::optional<bool> is_treadmill(const Trajectory& t, double size_px, double per
   return std::abs(displacement.x()) < 0.5 * size_px * strides && rest_px < 0.5 * size_px * strides;
 }
 
-/// The part was said to be absent on the marked frames around this one.
-bool is_absent(const Trajectory& marks, BodyPart part, int frame) {
-  const Point *before = nullptr, *after = nullptr;
+/// On which frames, counted from the first mark, the part was said to be absent on the marked
+/// frames around.
+std::vector<bool> absent_frames(const Trajectory& marks, BodyPart part) {
+  const int first = marks.frames.front().frame, last = marks.frames.back().frame;
+  std::vector<bool> absent(static_cast<std::size_t>(last - first + 1));
+  const auto fill = [&](int from, int to, bool value) {  // both included
+    for (int i = from; i <= to; ++i) absent[static_cast<std::size_t>(i - first)] = value;
+  };
+  const TrajectoryFrame* before = nullptr;
   for (const TrajectoryFrame& mark : marks.frames) {
     const Point& point = mark[part];
     if (!point.present() && point.confidence == 0) continue;  // nothing was said
-    if (mark.frame <= frame) before = &point;
-    if (mark.frame >= frame && after == nullptr) after = &point;
+    const bool was_absent = before == nullptr || !(*before)[part].present();
+    fill(before == nullptr ? first : before->frame + 1, mark.frame - 1,
+         was_absent && !point.present());
+    fill(mark.frame, mark.frame, !point.present());
+    before = &mark;
   }
-  const auto absent = [](const Point* p) { return p == nullptr || !p->present(); };
-  return (before != nullptr || after != nullptr) && absent(before) && absent(after);
+  if (before != nullptr) fill(before->frame + 1, last, !(*before)[part].present());
+  return absent;
 }
 
 double median_rate_hz(const std::vector<double>& times_s) {
@@ -74,12 +83,14 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks,
                                        const std::vector<double>& times_s, double size_px) {
   const int first = marks.frames.front().frame;
   std::vector<TrajectoryFrame> frames(estimates.size());
+  std::array<std::vector<bool>, kBodyPartCount> absent;
+  for (const BodyPart part : kBodyParts) absent[index(part)] = absent_frames(marks, part);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].frame = first + static_cast<int>(i);
     frames[i].time_s = times_s[static_cast<std::size_t>(frames[i].frame)];
     for (const BodyPart part : kBodyParts) {
       const gaussian_process::Estimate& estimate = estimates[i][index(part)];
-      if (!estimate.p_px.allFinite() || is_absent(marks, part, frames[i].frame)) continue;
+      if (!estimate.p_px.allFinite() || absent[index(part)][i]) continue;
       const double relative = 30 * std::sqrt(estimate.variance_px2.mean()) / size_px;
       frames[i][part] = {estimate.p_px, kPriorOnly / (1 + relative * relative)};
     }
@@ -120,6 +131,72 @@ void check(const Trajectory& marks, const std::vector<double>& times_s) {
   require(pelvis, "{}: the pelvis is marked on no frame; it is needed, click it", marks.video);
 }
 
+/// What one prior makes of the picture.
+struct Followed {
+  gaussian_process::GaitPrior prior;                 // its period settled
+  std::vector<Measurement> measurements, predicted;  // marks and flow; a prediction by others
+  std::vector<FlowStretch> stretches;
+
+  /// Share of the unmarked points where the flow was believed.
+  double inlier() const {
+    std::size_t steps = 0, inliers = 0;
+    for (const FlowStretch& s : stretches) steps += static_cast<std::size_t>(s.last - s.first);
+    for (const Measurement& r : measurements) inliers += r.inlier;
+    return steps > 0 ? static_cast<double>(inliers) / static_cast<double>(steps) : 0;
+  }
+};
+
+Followed followed(gaussian_process::GaitPrior prior, const Trajectory& marks,
+                  const video::DecodedClip& clip, const TrackOptions& options) {
+  const std::vector<double>& times_s = clip.times_s;
+  const int first = marks.frames.front().frame, last = marks.frames.back().frame;
+  const std::vector<double> span_s(times_s.begin() + first, times_s.begin() + last + 1);
+  const std::vector<Measurement> unweighed = measurements_of(marks);
+  gaussian_process::GaitPrior weights = prior;
+  if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
+  Followed result;
+  for (int look = 0; look < kLooks; ++look) {
+    result.measurements = unweighed;
+    weigh_marks(result.measurements, marks, weights);
+    result.predicted.clear();
+    if (options.prior) add_prediction(result.predicted, *options.prior, marks, weights);
+    if (!options.flow || clip.crops.empty()) break;
+    const gaussian_process::Estimates expected = gaussian_process::estimate(
+        prior, observations_of(joined(result.measurements, result.predicted), times_s), span_s,
+        false);
+    result.stretches = follow(
+        marks, clip.crops,
+        [&](BodyPart part, int frame) {
+          return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
+        },
+        flow_options(video::body_size_px(marks)));
+    add_flow(result.measurements, result.stretches, weights);
+    // The prediction has a period of its own, which says nothing new.
+    const double before_s = prior.legs.period_s;
+    prior = gaussian_process::with_period_of(prior, observations_of(result.measurements, times_s));
+    if (std::abs(prior.legs.period_s / before_s - 1) < kSettled) break;
+  }
+  result.prior = prior;
+  return result;
+}
+
+/// Where the clicks leave two periods, that one under which the picture is believed more often.
+Followed best_followed(const Trajectory& marks, const video::DecodedClip& clip,
+                       const TrackOptions& options) {
+  constexpr double kSurely = 0.6;  // believed: other periods need not be tried
+  constexpr double kClearly = 0.1;
+  const auto first = clip.times_s.begin() + marks.frames.front().frame,
+             last = clip.times_s.begin() + marks.frames.back().frame;
+  const std::vector<gaussian_process::GaitPrior> likely = gaussian_process::likely_gait_priors(
+      observations_of(measurements_of(marks), clip.times_s), period_bounds({first, last + 1}));
+  Followed best = followed(likely.front(), marks, clip, options);
+  if (likely.size() > 1 && !best.stretches.empty() && best.inlier() < kSurely) {
+    Followed other = followed(likely.back(), marks, clip, options);
+    if (other.inlier() > best.inlier() + kClearly) return other;
+  }
+  return best;
+}
+
 }  // namespace
 
 Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
@@ -128,37 +205,11 @@ Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
   check(marks, times_s);
   const int first = marks.frames.front().frame, last = marks.frames.back().frame;
   const std::vector<double> span_s(times_s.begin() + first, times_s.begin() + last + 1);
+  const Followed look = best_followed(marks, clip, options);
   Tracked tracked;
   TrackSummary& summary = tracked.summary;
-
-  const std::vector<Measurement> unweighed = measurements_of(marks);
-  summary.prior = gaussian_process::fit_gait_prior(observations_of(unweighed, times_s));
-  gaussian_process::GaitPrior weights = summary.prior;
-  if (options.keep_marks) weights.legs.noise_px = weights.trunk.noise_px = kKeptNoise_px;
-  std::vector<Measurement> measurements, predicted;
-  std::vector<FlowStretch> stretches;
-  for (int look = 0; look < kLooks; ++look) {
-    measurements = unweighed;
-    weigh_marks(measurements, marks, weights);
-    predicted.clear();
-    if (options.prior) add_prediction(predicted, *options.prior, marks, weights);
-    if (!options.flow || clip.crops.empty()) break;
-    const gaussian_process::Estimates expected = gaussian_process::estimate(
-        summary.prior, observations_of(joined(measurements, predicted), times_s), span_s, false);
-    stretches = follow(
-        marks, clip.crops,
-        [&](BodyPart part, int frame) {
-          return expected[static_cast<std::size_t>(frame - first)][index(part)].p_px;
-        },
-        flow_options(video::body_size_px(marks)));
-    add_flow(measurements, stretches, weights);
-    // The prediction has a period of its own, which says nothing new.
-    const double before_s = summary.prior.legs.period_s;
-    summary.prior =
-        gaussian_process::with_period_of(summary.prior, observations_of(measurements, times_s));
-    if (std::abs(summary.prior.legs.period_s / before_s - 1) < kSettled) break;
-  }
-  measurements = joined(measurements, predicted);
+  summary.prior = look.prior;
+  std::vector<Measurement> measurements = joined(look.measurements, look.predicted);
   gaussian_process::Estimates estimates;
   for (int round = 0; round < kReweightings; ++round) {
     estimates = gaussian_process::estimate(summary.prior, observations_of(measurements, times_s),
@@ -169,11 +220,8 @@ Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
   summary.labelled_frames = static_cast<int>(marks.frames.size());
   summary.shortfall = clip.shortfall;
   for (const BodyPart part : kBodyParts)
-    summary.miss_px[index(part)] = std::sqrt(2 * mean_squared_miss(stretches, part));
-  std::size_t followed = 0, inlier = 0;
-  for (const FlowStretch& s : stretches) followed += static_cast<std::size_t>(s.last - s.first);
-  for (const Measurement& r : measurements) inlier += r.inlier;
-  summary.inlier = followed > 0 ? static_cast<double>(inlier) / followed : 0;
+    summary.miss_px[index(part)] = std::sqrt(2 * mean_squared_miss(look.stretches, part));
+  summary.inlier = look.inlier();
   tracked.trajectory = marks;
   tracked.trajectory.rate_hz = median_rate_hz(times_s);
   tracked.trajectory.frames =

@@ -5,8 +5,10 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "extract/io/error.h"
+#include "extract/io/statistics.h"
 #include "extract/io/table.h"
 #include "extract/tracking/cubic_spline.h"
 
@@ -91,6 +93,37 @@ std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth,
   return errors;
 }
 
+/// Median length from pelvis to knee to ankle.
+double leg_px(const Trajectory& truth) {
+  std::vector<double> lengths;
+  for (const TrajectoryFrame& frame : truth.frames)
+    for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
+                                      std::pair{BodyPart::knee_l, BodyPart::ankle_l}})
+      lengths.push_back((frame[BodyPart::pelvis].p_px - frame[knee].p_px).norm() +
+                        (frame[knee].p_px - frame[ankle].p_px).norm());
+  return median(std::move(lengths));
+}
+
+/// Adds the points that were not clicked to the bins of their confidence.
+void count_reliability(const Trajectory& result, const Trajectory& truth, const Trajectory& clicks,
+                       std::array<Reliability, 10>& bins) {
+  constexpr double kNear = 0.03;
+  const double near_px = kNear * leg_px(truth);
+  std::map<int, const TrajectoryFrame*> true_frames;
+  for (const TrajectoryFrame& frame : truth.frames) true_frames[frame.frame] = &frame;
+  std::set<int> clicked;
+  for (const TrajectoryFrame& frame : clicks.frames) clicked.insert(frame.frame);
+  for (const TrajectoryFrame& frame : result.frames) {
+    if (clicked.contains(frame.frame)) continue;
+    for (const BodyPart part : kScoredParts) {
+      Reliability& bin =
+          bins[std::min<std::size_t>(9, static_cast<std::size_t>(10 * frame[part].confidence))];
+      ++bin.points;
+      bin.near += (frame[part].p_px - (*true_frames.at(frame.frame))[part].p_px).norm() < near_px;
+    }
+  }
+}
+
 double rms(const std::vector<double>& errors) {
   double sum = 0;
   for (const double e : errors) sum += e * e;
@@ -141,6 +174,7 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
         score.period_s = result.summary.prior.legs.period_s;
         add(spline, splined(clicks, truth));
         add(tracked, result.trajectory);
+        count_reliability(result.trajectory, truth, clicks, score.by_confidence);
         if (options.predict) {
           const auto prediction = options.predict(result.trajectory);
           track_options.prior = prediction ? &*prediction : nullptr;
@@ -168,6 +202,18 @@ std::string table_of(const std::vector<TrackScore>& scores) {
     text += fmt::format("| {} frames | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f}× |\n",
                         s.spacing_frames, s.noise_px, s.spline_px, s.prior_px, s.tracked_px,
                         s.tracked_p95_px, s.gain());
+  text += "\n| confidence | points | within 3 % of a leg |\n|---|---|---|\n";
+  for (std::size_t bin = 0; bin < 10; ++bin) {
+    Reliability all;
+    for (const TrackScore& s : scores) {
+      all.points += s.by_confidence[bin].points;
+      all.near += s.by_confidence[bin].near;
+    }
+    if (all.points > 0)
+      text += fmt::format("| {:.1f} to {:.1f} | {} | {:.1f} % |\n", 0.1 * static_cast<double>(bin),
+                          0.1 * static_cast<double>(bin + 1), all.points,
+                          100.0 * all.near / all.points);
+  }
   return text;
 }
 

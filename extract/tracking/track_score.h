@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -12,6 +13,12 @@ namespace stride::tracking {
 
 /// Tracking of one clip from clicks that were made from its truth, against that truth: knees and
 /// ankles, every frame from the first click to the last.
+/// How far points of one confidence are from the truth.
+struct Reliability {
+  int points = 0;
+  int near = 0;  // within 3 % of a leg's length
+};
+
 struct TrackScore {
   int spacing_frames = 0;  // a click every so many frames
   double noise_px = 0;     // standard deviation of a click, each coordinate
@@ -21,6 +28,7 @@ struct TrackScore {
   double tracked_p95_px = 0;
   double again_px = 0;  // of track() with the second pass's prediction; 0 without one
   double period_s = 0;  // of the stride that was found
+  std::array<Reliability, 10> by_confidence{};  // of track(), unclicked points; a tenth each
   double gain() const { return spline_px / tracked_px; }
 };
 
@@ -39,7 +47,8 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
                                        const std::filesystem::path& truth,
                                        const ScoreOptions& options = {});
 
-/// As a table in Markdown.
+/// As tables in Markdown: the scores, and of points of each confidence the share that is within 3 %
+/// of a leg from the truth.
 std::string table_of(const std::vector<TrackScore>& scores);
 
 }  // namespace stride::tracking

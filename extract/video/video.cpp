@@ -9,6 +9,9 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/io/error.h"
+#include "extract/io/outputs.h"
+#include "extract/video/container.h"
+#include "extract/video/packet_times.h"
 
 namespace stride::video {
 namespace fs = std::filesystem;
@@ -42,6 +45,52 @@ bool is_mp4_without_index(const fs::path& file) {
   return !first;
 }
 
+/// Upright, in memory of its own.
+cv::Mat turned(const cv::Mat& stored, const Turn& turn) {
+  cv::Mat image;
+  if (turn.transpose)
+    cv::transpose(stored, image);
+  else
+    image = stored;
+  if (turn.mirror_x || turn.mirror_y) {
+    cv::Mat flipped;
+    cv::flip(image, flipped, turn.mirror_x && turn.mirror_y ? -1 : turn.mirror_x ? 1 : 0);
+    return flipped;
+  }
+  return image;
+}
+
+bool is_folder_of_images(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (kind_of(entry.path()) == FileKind::image) return true;
+  return false;
+}
+
+/// Throws Error, with the cure, for what is not a file: what people give to other programs.
+void require_file(const fs::path& file) {
+  constexpr const char* kSequence =
+      "a sequence of images: make a video of it, ffmpeg -framerate 30 -i frame_%04d.png run.mp4 "
+      "(at the rate of the camera)";
+  const std::string name = file.string();
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    require(!is_folder_of_images(file), "{}: is {}", name, kSequence);
+    throw Error(
+        fmt::format("{}: is a folder, one video is needed (stride convert takes folders)", name));
+  }
+  if (fs::exists(file, error)) {
+    require(fs::is_regular_file(file), "{}: is not a file, a video is needed", name);
+    return;
+  }
+  require(name.find("://") == name.npos,
+          "{}: is an address (URL), a file is needed: download the video first", name);
+  require(name.find('%') == name.npos && name.find('*') == name.npos,
+          "{}: no such video; if it is {}", name, kSequence);
+  require(name.empty() || name.find_first_not_of("0123456789") != name.npos,
+          "{}: no such video; a camera cannot be read, record a video first", name);
+  throw Error(fmt::format("{}: no such video", name));
+}
+
 /// FFmpeg's own lines on stderr say less than our errors do.
 void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); }
 
@@ -50,8 +99,10 @@ void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0
 struct Video::Decoder {
   cv::VideoCapture capture;
   VideoInfo info;
+  Turn turn;
+  std::vector<double> stamps_s;  // where OpenCV's are not the file's
   double slow_motion = 1;
-  cv::Mat stored;  // of pixels that are not square
+  cv::Mat stored;  // lies, or has pixels that are not square
   cv::Mat first;   // decoded on opening: only a decoded frame proves that this is a video
   int frames_read = 0;
   double start_s = 0, previous_s = 0, step_s = 0;  // in presentation time
@@ -59,16 +110,22 @@ struct Video::Decoder {
   /// Into the memory of `image` where nobody else keeps it.
   bool decode(cv::Mat& image) {
     if (image.u != nullptr && image.u->refcount > 1) image.release();
-    if (info.width_px == 0 || info.width_px == info.stored_width_px)
-      return capture.read(image) && !image.empty();
+    const bool is_square = info.width_px == 0 || info.width_px == info.stored_width_px;
+    if (turn.is_none() && is_square) return capture.read(image) && !image.empty();
     if (!capture.read(stored) || stored.empty()) return false;
-    cv::resize(stored, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
+    image = turned(stored, turn);
+    if (is_square) return true;
+    const cv::Mat upright = image;
+    image.release();
+    cv::resize(upright, image, {info.width_px, info.height_px}, 0, 0, cv::INTER_LINEAR);
     return true;
   }
 
   /// Presentation time of the frame decoded last, since the first one.
   double stamp() {
-    const double stamp_s = capture.get(cv::CAP_PROP_POS_MSEC) / 1000;
+    const auto i = static_cast<std::size_t>(frames_read);
+    const double stamp_s =
+        i < stamps_s.size() ? stamps_s[i] : capture.get(cv::CAP_PROP_POS_MSEC) / 1000;
     if (frames_read == 0) {
       start_s = stamp_s;
       return 0;
@@ -87,8 +144,7 @@ Video::Video(Video&&) noexcept = default;
 Video& Video::operator=(Video&&) noexcept = default;
 
 Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_unique<Decoder>()) {
-  require(fs::exists(file), "{}: no such video", file.string());
-  require(fs::is_regular_file(file), "{}: is not a file, a video is needed", file.string());
+  require_file(file);
   require(std::isfinite(slow_motion) && slow_motion > 0,
           "slow-motion factor = {}: must be positive (4: a second of the runner takes four)",
           slow_motion);
@@ -96,8 +152,16 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   Decoder& d = *decoder_;
   d.slow_motion = slow_motion;
   d.info.file = file;
+  const Container container = read_container(file);
+  d.turn = container.turn;
+  d.info.turn = container.turn;
+  d.info.capture_rate_hz = container.capture_rate_hz;
+  if (container.codec == "apng") d.stamps_s = packet_times_s(file);  // OpenCV rounds to a 60th
   cv::Mat first;
-  if (!d.capture.open(file.string(), cv::CAP_FFMPEG) || !d.decode(first)) {
+  // OpenCV 4.6 turns by 90 degrees the wrong way: https://github.com/opencv/opencv/issues/22088
+  const bool is_open = d.capture.open(ffmpeg_name(file), cv::CAP_FFMPEG);
+  d.capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
+  if (!is_open || !d.decode(first)) {
     require(!is_mp4_without_index(file),
             "{}: truncated: 0 frames readable, because the index at the end of the file is "
             "missing; copy or record it again",
@@ -109,8 +173,7 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   const double numerator = d.capture.get(cv::CAP_PROP_SAR_NUM),
                denominator = d.capture.get(cv::CAP_PROP_SAR_DEN);
   double aspect = numerator > 0 && denominator > 0 ? numerator / denominator : 1;
-  const int rotation_deg = static_cast<int>(d.capture.get(cv::CAP_PROP_ORIENTATION_META));
-  if (rotation_deg % 180 != 0) aspect = 1 / aspect;
+  if (d.turn.transpose) aspect = 1 / aspect;
   d.info.stored_width_px = first.cols;
   d.info.width_px = static_cast<int>(std::lround(first.cols * aspect));
   d.info.height_px = first.rows;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "extract/video/container.h"
+
 namespace stride::video {
 
 struct VideoFrame {
@@ -19,6 +21,8 @@ struct VideoInfo {
   int width_px = 0, height_px = 0;  // of the frames that are handed out
   int stored_width_px = 0;          // differs from width_px where stored pixels are not square
   double rate_hz = 0;               // as announced, times the slow-motion factor
+  Turn turn;                        // of stored frames to those that are handed out
+  double capture_rate_hz = 0;       // of the camera, as the file says; NaN: it does not
   int announced_frames = 0;         // what the container says, which is often wrong; 0: nothing
 };
 

@@ -7,6 +7,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "extract/io/error.h"
+#include "extract/video/container.h"
 
 namespace stride::video {
 namespace fs = std::filesystem;
@@ -22,7 +23,7 @@ struct VideoWriter::Encoder {
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
     size = image_size;
     const cv::Size even(size.width + size.width % 2, size.height + size.height % 2);
-    require(writer.open(unfinished.string(), cv::CAP_FFMPEG,
+    require(writer.open(ffmpeg_name(unfinished), cv::CAP_FFMPEG,
                         cv::VideoWriter::fourcc('a', 'v', 'c', '1'), rate_hz, even),
             "{}: the video cannot be written ({}×{} px, {} Hz); is the folder writable?",
             file.string(), even.width, even.height, rate_hz);

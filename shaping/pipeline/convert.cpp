@@ -17,6 +17,8 @@
 #include "extract/annotation/points_of_video.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
+#include "extract/pose/weights.h"
 #include "extract/video/overlay.h"
 
 namespace stride::pipeline {
@@ -31,11 +33,19 @@ bool ends_with(const fs::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
 }
 
+/// Whether it is for the decoder to try: anything but our tables.
 bool is_video(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), ::tolower);
-  static const std::set<std::string> known{".mp4", ".mov", ".avi", ".mkv", ".webm", ".m4v"};
-  return known.contains(extension);
+  return !ends_with(file, kTrajectory) && !ends_with(file, kCalibrated);
+}
+
+/// Why a file of a folder is no input; empty if it is one.
+std::string left_out(const fs::path& file) {
+  const FileKind kind = kind_of(file);
+  if (fs::is_directory(file)) return "a folder";
+  if (kind != FileKind::video && kind != FileKind::binary) return std::string(name(kind));
+  if (!fs::exists(keypoints_file_of(file)) && !pose::installed_weights())
+    return fmt::format("no {} beside it", keypoints_file_of(file).filename().string());
+  return {};
 }
 
 /// source.points of a potential: "clicks", "network" or "mixed".
@@ -56,6 +66,7 @@ class Clip {
   }
 
   Converted convert() {
+    check_files();
     // Before the inputs are compared with those of the last time.
     if (is_video(input_)) annotation::fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
@@ -81,6 +92,18 @@ class Clip {
 
  private:
   fs::path out(const char* ending) const { return options_.out / (result_.name + ending); }
+
+  void check_files() const {
+    const auto own = [&](const char* ending, bool is_input) {
+      return is_input ? fs::path() : out(ending);
+    };
+    check_outputs({input_, keypoints_file_of(input_), options_.model},
+                  {{"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
+                   {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
+                   {"-o", out(".report.txt"), FileKind::report},
+                   {"-o", out(".report.svg"), FileKind::svg},
+                   {"-o", out(".potential.json"), FileKind::potential}});
+  }
 
   CalibratedTrajectory loaded() {
     CalibratedTrajectory run = load_calibrated(input_);
@@ -201,20 +224,27 @@ std::string clip_name(const fs::path& input) {
   return input.stem().string();
 }
 
-std::vector<fs::path> expand_inputs(const std::vector<fs::path>& given) {
+std::vector<fs::path> expand_inputs(const std::vector<fs::path>& given,
+                                    const std::function<void(const std::string&)>& tell) {
   std::vector<fs::path> inputs;
   for (const fs::path& each : given) {
     require(fs::exists(each), "{}: no such file or folder", each.string());
     if (!fs::is_directory(each)) {
-      require(is_video(each) || ends_with(each, kTrajectory) || ends_with(each, kCalibrated),
-              "{}: must be a video, NAME.trajectory.csv or NAME.calibrated.csv", each.string());
+      const FileKind kind = kind_of(each);
+      require(!is_video(each) || kind == FileKind::video || kind == FileKind::binary,
+              "{}: is {}; must be a video, NAME.trajectory.csv or NAME.calibrated.csv",
+              each.string(), name(kind));
       inputs.push_back(each);
       continue;
     }
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(each))
-      if (is_video(entry.path()) && fs::exists(keypoints_file_of(entry.path())))
+    for (const auto& entry : fs::directory_iterator(each)) {
+      const std::string why = left_out(entry.path());
+      if (why.empty())
         found.push_back(entry.path());
+      else if (tell)
+        tell(fmt::format("left out: {}: {}", entry.path().string(), why));
+    }
     require(!found.empty(), "{}: no video with NAME.keypoints.json beside it", each.string());
     std::ranges::sort(found);
     inputs.insert(inputs.end(), found.begin(), found.end());

@@ -52,9 +52,11 @@ struct Converted {
 std::vector<Converted> convert(const std::vector<std::filesystem::path>& inputs,
                                const ConvertOptions& options);
 
-/// Folders become the videos and trajectories in them. Throws Error for what does not exist, or for
-/// two inputs of one name.
-std::vector<std::filesystem::path> expand_inputs(const std::vector<std::filesystem::path>& given);
+/// Folders become the videos in them that were clicked; `tell` is told of each other file why it is
+/// left out. Throws Error for what does not exist or is no input, or for two inputs of one name.
+std::vector<std::filesystem::path> expand_inputs(
+    const std::vector<std::filesystem::path>& given,
+    const std::function<void(const std::string&)>& tell = {});
 
 /// NAME of an input.
 std::string clip_name(const std::filesystem::path& input);

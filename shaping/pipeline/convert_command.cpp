@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "extract/io/error.h"
+#include "extract/io/option_range.h"
 #include "extract/parallel/ranks.h"
 #include "shaping/commands.h"
 #include "shaping/pipeline/convert.h"
@@ -30,7 +31,7 @@ void run(ConvertCommand command) {
   if (!command.config.empty()) pipeline::load_convert_config(command.config, options);
   options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
 
-  const auto inputs = pipeline::expand_inputs(command.inputs);
+  const auto inputs = pipeline::expand_inputs(command.inputs, options.progress);
   parallel::Ranks& ranks = parallel::Ranks::world();
   if (ranks.size() > 1) {
     // Each rank converts its share; then the first one finds it done, and tells of all.
@@ -74,17 +75,21 @@ void add_convert_command(CLI::App& app) {
   convert->add_option("--height", clip.size.height_m, "standing height of the runner, m");
   convert->add_option("--leg", clip.size.leg_m, "the runner's hip to ankle, m");
   convert->add_option("--scale", clip.size.metres_per_pixel, "metres per pixel");
-  convert->add_option("--slow-motion", clip.slow_motion, "seconds of video a second of the runner");
+  convert->add_option("--slow-motion", clip.slow_motion, "seconds of video a second of the runner")
+      ->check(in_range(0.05, 100));
   convert->add_option("--direction", clip.direction, "right or left: the way the runner faces")
       ->check(CLI::IsMember({"right", "left"}));
-  convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even");
+  convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even")
+      ->check(in_range(2, 200));
   convert->add_option("--foot", clip.keyframes.foot, "ankle or toe: the foot of the potential")
       ->check(CLI::IsMember({"ankle", "toe"}));
   convert->add_option("--function", command->function,
                       "inverse distance: " + kInverseDistances.list());
   convert->add_option("--index", command->index, "keyframe by time, or nearest");
-  convert->add_option("--epsilon", clip.keyframes.epsilon_m, "of the inverse distance, m");
-  convert->add_option("--weight", clip.keyframes.weight, "of the potential");
+  convert->add_option("--epsilon", clip.keyframes.epsilon_m, "of the inverse distance, m")
+      ->check(in_range(1e-6, 10));
+  convert->add_option("--weight", clip.keyframes.weight, "of the potential")
+      ->check(in_range(1e-9, 1e9));
   convert->add_flag("--keep-asymmetry", command->asymmetric,
                     "do not make the legs mirror images of one another");
   convert
@@ -97,7 +102,8 @@ void add_convert_command(CLI::App& app) {
           "the pose network also for videos with clicks, which then correct it; MODEL.tflite: "
           "another one than the installed")
       ->expected(0, 1);
-  convert->add_option("--threads", options.threads, "clips at a time (default: processors)");
+  convert->add_option("--threads", options.threads, "clips at a time (default: processors)")
+      ->check(in_range(1, 1024));
   convert->add_flag("--overlay", options.overlay,
                     "also write NAME.overlay.mp4, the tracked points on every frame");
   convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");

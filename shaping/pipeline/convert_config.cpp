@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/TypeTools.hpp>
+#include <cmath>
 
 #include "extract/io/error.h"
 #include "extract/io/toml.h"
@@ -15,8 +16,14 @@ struct Setting {
 
   double number() const {
     double parsed = 0;
-    require(CLI::detail::lexical_cast(value, parsed), "{}: {} = {}: must be a number", file, key,
-            value);
+    require(CLI::detail::lexical_cast(value, parsed) && std::isfinite(parsed),
+            "{}: {} = {}: must be a number", file, key, value);
+    return parsed;
+  }
+  double number_in(double low, double high) const {
+    const double parsed = number();
+    require(parsed >= low && parsed <= high, "{}: {} = {}: must be in [{}, {}]", file, key, value,
+            low, high);
     return parsed;
   }
   bool flag() const {
@@ -51,11 +58,11 @@ void apply(const Setting& setting, ClipOptions& clip) {
   else if (key == "direction")
     clip.direction = setting.one_of({"right", "left"});
   else if (key == "slow-motion")
-    clip.slow_motion = setting.number();
+    clip.slow_motion = setting.number_in(0.05, 100);
   else if (key == "force")
     clip.force = setting.flag();
   else if (key == "keyframes")
-    clip.keyframes.count = static_cast<int>(setting.number());
+    clip.keyframes.count = static_cast<int>(setting.number_in(2, 200));
   else if (key == "foot")
     clip.keyframes.foot = setting.one_of({"ankle", "toe"});
   else if (key == "symmetric")

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -9,9 +10,12 @@
 #include "calibrate/runner/calibrated.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 #include "extract/io/table.h"
 #include "extract/skeleton/keypoints.h"
 #include "extract/skeleton/trajectory.h"
+#include "extract/tracking/time_check.h"
+#include "extract/video/video.h"
 #include "shaping/commands.h"
 #include "shaping/potential.h"
 
@@ -121,8 +125,48 @@ std::string about_json(const fs::path& file) {
   if (content.find("\"stride keypoints\"") != std::string::npos ||
       file.string().ends_with(".keypoints.json"))
     return about_keypoints(load_keypoints(file));
+  if (kind_of(file) == FileKind::points_json)
+    return fmt::format("exported points: stride track VIDEO --import {}\n", file.string());
+  if (file.filename() == "evaluation.json" || file.string().ends_with(".converted.json"))
+    return content;
   throw Error(fmt::format("{}: neither a potential nor clicks: the key format says neither",
                           file.string()));
+}
+
+std::string about_video(const fs::path& file) {
+  const video::Container container = video::read_container(file);
+  const video::VideoTimes times = video::video_times(file, 1);
+  const std::vector<double>& t = times.times_s;
+  double shortest_s = t.size() > 1 ? t[1] - t[0] : 0, longest_s = shortest_s;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    shortest_s = std::min(shortest_s, t[i] - t[i - 1]);
+    longest_s = std::max(longest_s, t[i] - t[i - 1]);
+  }
+  const bool varies = longest_s > 1.2 * shortest_s;
+  std::string text = fmt::format(
+      "video, {} in {}\n{} x {} px{}{}\n{} frames in {:.3f} s, announced {:.4g} a second{}\n",
+      container.codec, container.format, times.info.width_px, times.info.height_px,
+      times.info.stored_width_px == times.info.width_px
+          ? ""
+          : fmt::format(", stored {} wide: its pixels are not square", times.info.stored_width_px),
+      container.turn.is_none() ? "" : ", " + video::text_of(container.turn), t.size(),
+      t.empty() ? 0 : t.back() + (t.size() > 1 ? t.back() - t[t.size() - 2] : 0),
+      times.info.rate_hz,
+      varies ? fmt::format("; the rate varies: {:.1f} to {:.1f} ms a frame", 1000 * shortest_s,
+                           1000 * longest_s)
+             : "");
+  if (const std::string doubt = tracking::doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
+      !doubt.empty())
+    text += doubt + "\n";
+  if (!times.shortfall.empty()) text += times.shortfall + "\n";
+  return text;
+}
+
+/// The beginning of a text, as of a report.
+std::string beginning(const fs::path& file) {
+  constexpr std::size_t kMost = 2000;
+  const std::string content = read_file(file);
+  return content.size() <= kMost ? content : content.substr(0, kMost) + "\n…\n";
 }
 
 std::string about(const fs::path& file) {
@@ -134,8 +178,22 @@ std::string about(const fs::path& file) {
   }
   if (file.extension() == ".osim") return about_model(osim::load_osim(file));
   if (file.extension() == ".json") return about_json(file);
+  const FileKind kind = kind_of(file);
+  if (kind == FileKind::video) return about_video(file);
+  if (kind == FileKind::image || kind == FileKind::svg) return fmt::format("{}\n", name(kind));
+  if (kind == FileKind::report || kind == FileKind::motion || kind == FileKind::trc ||
+      kind == FileKind::gnuplot_script || kind == FileKind::plot_data ||
+      file.extension() == ".toml")
+    return beginning(file);
+  if (file.extension() == ".safetensors")
+    return fmt::format("an agent, {} bytes; its run says more: stride info RUN\n",
+                       fs::file_size(file));
+  if (file.extension() == ".onnx")
+    return fmt::format("a network for other programs, {} bytes\n", fs::file_size(file));
   require(file.extension() == ".csv",
-          "{}: not a file of ours: .json, .csv, .osim, or the folder of a run", file.string());
+          "{}: is {}, not a file of ours: a video, .json, .csv, .osim, .toml, .mot, .sto, .trc, "
+          ".report.txt, or the folder of a run",
+          file.string(), name(kind));
   const Table table = load_csv(file);
   if (table.format == "trajectory") return about_trajectory(load_trajectory(file));
   if (table.format == "calibrated") return about_calibrated(load_calibrated(file));
@@ -146,9 +204,10 @@ std::string about(const fs::path& file) {
 
 void add_info_command(CLI::App& app) {
   const auto file = std::make_shared<fs::path>();
-  CLI::App* info = app.add_subcommand("info", "print any of our files for a person");
-  info->add_option("file", *file,
-                   "clicks, trajectory, calibrated run, potential, .osim, or the folder of a run")
+  CLI::App* info = app.add_subcommand("info", "print any of our files, or a video, for a person");
+  info->add_option(
+          "file", *file,
+          "a video, clicks, trajectory, calibrated run, potential, .osim, or the folder of a run")
       ->required();
   info->callback([file] { fmt::print("{}", about(*file)); });
 }

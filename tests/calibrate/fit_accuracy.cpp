@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_on_video.h"
 #include "extract/io/error.h"
 #include "extract/pose/network_points.h"
 #include "tests/calibrate/rendered.h"
@@ -37,9 +37,7 @@ Trajectory seen_by_network(const videos::Clip& clip) {
   const std::filesystem::path video =
       std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / (clip.name + ".mp4");
   const pose::NetworkPoints seen = pose::network_points(video);
-  return tracking::track(video, tracking::points_on(video, seen.detections,
-                                                    video::video_times(video, 1), 1, true))
-      .trajectory;
+  return tracking::track(video, tracking::points_on(video, seen.detections, {})).trajectory;
 }
 
 /// Mean, and greatest size, of a number of every fit.

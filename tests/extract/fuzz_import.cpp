@@ -8,12 +8,12 @@
 #include "extract/import/parsing/people.h"
 #include "tests/support/fuzz.h"
 
-namespace stride {
+namespace stride::imports {
 
-DetectedPeople openpose(std::string_view content, const std::string& file, const ImportOptions&) {
+ImportedFile openpose(std::string_view content, const std::string& file, const ImportOptions&) {
   return read_openpose(content, file, 0);
 }
-DetectedPeople json(std::string_view content, const std::string& file, const ImportOptions&) {
+ImportedFile json(std::string_view content, const std::string& file, const ImportOptions&) {
   return read_own_json(content, file);
 }
 
@@ -22,8 +22,8 @@ void import(std::string_view content) {
   take_person(STRIDE_FUZZED_READER(content, "fuzz", options), options, "fuzz");
 }
 
-}  // namespace stride
+}  // namespace stride::imports
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return stride::read_or_refuse(data, size, stride::import);
+  return stride::read_or_refuse(data, size, stride::imports::import);
 }

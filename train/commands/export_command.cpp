@@ -5,6 +5,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 #include "train/network/policy_onnx.h"
 #include "train/training/train.h"
 
@@ -29,6 +30,7 @@ void export_policy(const Request& request) {
   const std::string precision = training::load_run_options(request.run).run.precision;
   const std::filesystem::path out =
       request.out.empty() ? request.run / (request.agent + ".onnx") : request.out;
+  check_outputs({file}, {{"-o", out, FileKind::binary}});
   write_file_atomically(out, precision == "float" ? onnx_of<float>(file) : onnx_of<double>(file));
   fmt::print("{}\n", out.string());
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "extract/io/error.h"
+#include "extract/io/outputs.h"
 #include "train/commands.h"
 #include "train/simulation/make_engine.h"
 #include "train/simulation/simulate.h"
@@ -19,6 +20,8 @@ struct Arguments {
 };
 
 void run(const Arguments& arguments) {
+  check_outputs({arguments.model, arguments.excitations, arguments.obstacles},
+                {{"--out", arguments.out, FileKind::table}});
   simulation::SimulateOptions options;
   options.engine = arguments.engine;
   options.rules = competition::rules_named(arguments.rules);

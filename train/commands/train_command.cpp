@@ -43,6 +43,8 @@ fs::path begin(const Request& request) {
     options.shaping.source = fs::absolute(request.potential).lexically_normal().string();
   const training::Demonstration demonstration =
       training::load_demonstration(request.potential, request.reference, options.environment);
+  if (demonstration.potential)
+    fmt::print(stderr, "{}: {}\n", request.potential, demonstration.potential->verdict);
   if (!options.environment.model.empty())
     options.environment.model = fs::absolute(options.environment.model).string();
   training::make_run_folder(options, demonstration, request.out);

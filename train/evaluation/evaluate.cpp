@@ -8,6 +8,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 #include "train/film/evaluation_film.h"
 #include "train/rollout/human_gait.h"
 #include "train/training/runner_factory.h"
@@ -123,6 +124,8 @@ std::string Evaluation::brief_report() const {
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
   require(options.first_seed >= 0, "--first {}: must be at least 0", options.first_seed);
+  check_outputs({run / "reference.calibrated.csv"},
+                {{"--trajectory", options.trajectory, FileKind::calibrated}});
   const fs::path agent = network::agent_file(run, options.agent);
   training::TrainOptions train_options = training::load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;

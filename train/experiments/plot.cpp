@@ -1,8 +1,6 @@
 #include "train/experiments/plot.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +11,8 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/gnuplot.h"
+#include "extract/io/outputs.h"
 #include "extract/io/table.h"
 #include "train/training/curve.h"
 
@@ -91,7 +91,7 @@ Band band_of(const Arm& arm, const PlotOptions& options) {
 std::string data_of(const std::vector<Band>& bands) {
   std::string text = "# x, mean, standard error; one block an arm\n";
   for (const Band& band : bands) {
-    text += fmt::format("# {}\n", band.label);
+    text += fmt::format("# {}\n", gnuplot_string(band.label));
     for (std::size_t i = 0; i < band.x.size(); ++i)
       text += fmt::format("{},{},{}\n", band.x[i], band.mean[i], band.se[i]);
     text += "\n\n";
@@ -110,40 +110,39 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const char* colour = kColours[i % std::size(kColours)];
     lines += fmt::format(
-        "{} '{}.csv' index {} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
+        "{} {} index {} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
         "transparent solid {} noborder notitle, \\\n  '' index {} using 1:2 with lines lw 2 lc "
-        "rgb '{}' title \"{}\"",
-        i == 0 ? "plot" : ", \\\n ", name, i, colour, crowded ? 0.1 : 0.2, i, colour,
-        bands[i].label);
+        "rgb '{}' title {} noenhanced",
+        i == 0 ? "plot" : ", \\\n ", gnuplot_file(name + ".csv"), i, colour, crowded ? 0.1 : 0.2, i,
+        colour, gnuplot_string(bands[i].label));
   }
   std::string script = fmt::format(
       "# Run gnuplot on this file in its folder. Mean and standard error over seeds.\n"
       "set datafile separator ','\nset {}\nset grid lc rgb '#dddddd'\n"
-      "set autoscale xfix\nset format x '{}'\nset xlabel '{}'\nset ylabel '{}' noenhanced\n"
-      "set title \"{}\" noenhanced\n",
+      "set autoscale xfix\nset format x '{}'\nset xlabel '{}'\nset ylabel {} noenhanced\n"
+      "set title {} noenhanced\n",
       crowded ? "key outside right top Left reverse" : "rmargin 5\nset key left top",
       options.against == "decisions" ? "%.0s%c" : "%g", axes.at(options.against),
-      options.column == "evaluation_distance_m" ? "distance in 10 s (m)" : options.column,
-      options.title);
+      gnuplot_string(options.column == "evaluation_distance_m" ? "distance in 10 s (m)"
+                                                               : options.column),
+      gnuplot_string(options.title));
   for (const auto& [terminal, extension] :
        {std::pair{"svg size 720,420 font 'sans,12' background rgb 'white'", "svg"},
         std::pair{"pngcairo size 1440,840 font 'sans,20'", "png"}})
-    script += fmt::format("set terminal {}\nset output '{}.{}'\n{}\nunset output\n", terminal, name,
-                          extension, lines);
+    script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
+                          gnuplot_file(fmt::format("{}.{}", name, extension)), lines);
   return script;
 }
 
-void run_gnuplot(const fs::path& folder, const std::string& script) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder.c_str()) == 0) ::execlp("gnuplot", "gnuplot", script.c_str(), nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  require(child > 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-              WEXITSTATUS(status) != 127,
-          "gnuplot: cannot be run; install the package gnuplot-nox");
-  require(WEXITSTATUS(status) == 0, "gnuplot: failed on {}", (folder / script).string());
+void check_files(const std::vector<Arm>& arms, const fs::path& out) {
+  std::vector<fs::path> inputs;
+  for (const Arm& arm : arms)
+    for (const fs::path& run : arm.runs)
+      inputs.insert(inputs.end(), {run / "curve.csv", run / "timing.csv"});
+  check_outputs(inputs, {{"-o", out.string() + ".csv", FileKind::plot_data},
+                         {"-o", out.string() + ".gnuplot", FileKind::gnuplot_script},
+                         {"-o", out.string() + ".svg", FileKind::svg},
+                         {"-o", out.string() + ".png", FileKind::image}});
 }
 
 }  // namespace
@@ -169,13 +168,15 @@ std::vector<Arm> arms_of(const std::vector<fs::path>& runs) {
 
 void plot(const std::vector<Arm>& arms, const PlotOptions& options) {
   require(!arms.empty(), "name at least one run folder");
+  check_files(arms, options.out);
   std::vector<Band> bands;
   for (const Arm& arm : arms) bands.push_back(band_of(arm, options));
   const fs::path folder = fs::absolute(options.out).parent_path();
   const std::string name = options.out.filename().string();
+  const std::string script = script_of(bands, options);
   write_file_atomically(folder / (name + ".csv"), data_of(bands));
-  write_file_atomically(folder / (name + ".gnuplot"), script_of(bands, options));
-  run_gnuplot(folder, name + ".gnuplot");
+  write_file_atomically(folder / (name + ".gnuplot"), script);
+  run_gnuplot(script, folder);
 }
 
 void watch(const std::vector<Arm>& arms, const PlotOptions& options, const std::atomic<bool>& stop,

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "calibrate/osim/model.h"
 #include "extract/io/error.h"
 
 namespace stride::training {
@@ -13,12 +14,43 @@ fs::path calibrated_beside(const fs::path& potential) {
   return fs::path(potential).replace_extension().replace_extension(".calibrated.csv");
 }
 
+/// What no runner does cannot be learned from.
+void require_a_run(const Potential& p, const std::string& file) {
+  constexpr double kShortest_s = 0.3, kLongest_s = 2, kFastest_m_s = 12.5;
+  require(!p.verdict.starts_with("refused"), "{}: the clip behind it was refused ({})", file,
+          p.verdict);
+  require(p.period_s >= kShortest_s && p.period_s <= kLongest_s,
+          "{}: a stride takes {:.2f} s, runners' {} to {} s; if the clip plays in slow motion, "
+          "convert it again with --slow-motion",
+          file, p.period_s, kShortest_s, kLongest_s);
+  require(!(p.speed_m_s > kFastest_m_s), "{}: {:.1f} m/s is faster than anybody", file,
+          p.speed_m_s);
+  for (const Keyframe& keyframe : p.keyframes) {
+    const double height_m = keyframe.pose.pelvis_height_m;
+    require(height_m > 0.3 && height_m < 1.6,
+            "{}: phase {}: the pelvis is {:.2f} m high, a runner's 0.3 to 1.6 m", file,
+            keyframe.phase, height_m);
+  }
+}
+
+void require_model(const Potential& p, const std::string& file, const std::string& model_file) {
+  const osim::Model model = osim::load_osim(model_file.empty() ? osim::default_model_file()
+                                                               : fs::path(model_file));
+  require(p.model.empty() || p.model == model.name,
+          "{}: was made on the model {}, the run trains {}; convert the clip again with --model",
+          file, p.model, model.name);
+}
+
 }  // namespace
 
 Demonstration load_demonstration(const fs::path& potential, const fs::path& reference,
                                  const EnvironmentOptions& options) {
   Demonstration demonstration;
-  if (!potential.empty()) demonstration.potential = load_potential(potential);
+  if (!potential.empty()) {
+    demonstration.potential = load_potential(potential);
+    require_a_run(*demonstration.potential, potential.string());
+    require_model(*demonstration.potential, potential.string(), options.model);
+  }
   if (options.reference_share == 0 || (potential.empty() && reference.empty()))
     return demonstration;
   const fs::path file = reference.empty() ? calibrated_beside(potential) : reference;

@@ -250,6 +250,11 @@ void make_run_folder(const TrainOptions& options, const Demonstration& demonstra
   require(!fs::exists(run / "config.toml"),
           "{}: holds a run already; continue it with --resume, or choose another folder",
           run.string());
+  if (fs::exists(run))
+    for (const fs::directory_entry& entry : fs::directory_iterator(run))
+      require(entry.path().filename().string().starts_with('.'),
+              "--out {}: holds {} already; a run takes a folder of its own: name a new one",
+              run.string(), entry.path().filename().string());
   TrainOptions written = options;
   save(demonstration, run, written);
   write_run_options(written, run);

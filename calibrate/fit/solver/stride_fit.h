@@ -60,7 +60,7 @@ struct StrideFit {
   std::vector<Eigen::Vector2d> pelvis_px;  // of every frame
   VerticalOscillation vertical_oscillation;
 
-  double explained = 0;    // of the first guess: see PeriodGuess
+  double explained = 0;    // of the first guess: see StridePeriod
   double sigma_px = 0;     // robust standard deviation of a mark of confidence 1
   double correlation = 1;  // frames that say as much as one independent one
   double rms_px = 0;       // of the marks that are believed

@@ -10,6 +10,50 @@
 
 namespace stride::annotation {
 
+namespace {
+
+/// How far the clicks reach.
+std::string clicked_strides(const Keypoints& k, double stride_frames) {
+  if (k.frames.size() < 2) return {};
+  const double strides = (k.frames.rbegin()->first - k.frames.begin()->first) / stride_frames;
+  return strides < 1 ? fmt::format(", {:.2f} of 1 clicked", strides)
+                     : fmt::format(", {:.1f} clicked", strides);
+}
+
+/// A runner whose joints are clicked: places in units of the box, right leg first.
+void draw_landmarks(cv::Mat& canvas, const cv::Rect& box) {
+  struct Landmark {
+    double x, y;
+    const char* where;
+  };
+  static const std::vector<Landmark> near{{0.30, 0.42, "pelvis: midway between the hip joints,"},
+                                          {0.37, 0.66, "knee: where thigh and shank meet"},
+                                          {0.41, 0.88, "ankle: the bump above the shoe"},
+                                          {0.49, 0.91, "toe: tip of the shoe"}},
+      far{{0.30, 0.42, ""}, {0.25, 0.65, ""}, {0.09, 0.71, ""}, {0.07, 0.80, ""}};
+  const auto at = [&](double x, double y) {
+    return cv::Point(box.x + static_cast<int>(x * box.width),
+                     box.y + static_cast<int>(y * box.height));
+  };
+  cv::line(canvas, at(0.30, 0.42), at(0.33, 0.16), colour::kDim, 3, cv::LINE_AA);
+  cv::circle(canvas, at(0.345, 0.09), box.height / 22, colour::kDim, 2, cv::LINE_AA);
+  for (const auto& [leg, paint] :
+       {std::pair(&far, colour::kFar), std::pair(&near, colour::kNear)}) {
+    for (std::size_t i = 1; i < leg->size(); ++i)
+      cv::line(canvas, at((*leg)[i - 1].x, (*leg)[i - 1].y), at((*leg)[i].x, (*leg)[i].y), paint, 3,
+               cv::LINE_AA);
+    for (const Landmark& mark : *leg)
+      cv::circle(canvas, at(mark.x, mark.y), 5, paint, cv::FILLED, cv::LINE_AA);
+  }
+  for (const Landmark& mark : near)
+    draw_text(canvas, mark.where, at(0.55, mark.y), colour::kText, 0.45);
+  draw_text(canvas, "a hand below the belt", at(0.55, 0.46), colour::kText, 0.45);
+  draw_text(canvas, "Click joint centres.  Pelvis to knee is as long as knee to ankle.",
+            at(0.02, 0.97), colour::kAccent, 0.45);
+}
+
+}  // namespace
+
 void AnnotationCanvas::draw_head_line() {
   const cv::Size size = s_.options_.canvas_px;
   canvas_({0, 0, size.width, kHeadLine}).setTo(colour::kPanel);
@@ -20,7 +64,8 @@ void AnnotationCanvas::draw_head_line() {
   if (k.treadmill.value_or(false)) left += "   treadmill";
   if (k.trim) left += fmt::format("   trim {}-{}", k.trim->first, k.trim->last);
   if (s_.prediction_.stride_frames > 0)
-    left += fmt::format("   stride {:.1f} frames", s_.prediction_.stride_frames);
+    left += fmt::format("   stride {:.1f} frames{}", s_.prediction_.stride_frames,
+                        clicked_strides(k, s_.prediction_.stride_frames));
   draw_text(canvas_, left, {10, 17}, colour::kText);
 
   std::string right = fmt::format("frame {} of {}", s_.frame_, s_.frame_count());
@@ -86,18 +131,19 @@ void AnnotationCanvas::draw_status() {
   const double letters = std::min(0.5, 0.5 * (size.width - x - 10) / text_width(click, 0.5));
   draw_text(canvas_, click, {x, y}, colour::kText, letters);
   x += text_width(click, letters) + 30;
-  const std::string& message = s_.message_;
+  const bool in_doubt = s_.message_.empty();
+  const std::string& message = in_doubt ? s_.prediction_.doubt : s_.message_;
   if (message.empty()) return;
+  const cv::Scalar& paint = s_.wrong_ || in_doubt ? colour::kWrong : colour::kGood;
   const int room = size.width - x - 10;
   if (text_width(message) > room) {
     // A long message gets a line of its own above the timeline.
     const int top = timeline_top(size);
     shade(canvas_, {0, top - 24, size.width, 24}, 0.3);
-    draw_text(canvas_, message, {10, top - 8}, s_.wrong_ ? colour::kWrong : colour::kGood);
+    draw_text(canvas_, message, {10, top - 8}, paint);
     return;
   }
-  draw_text(canvas_, message, {size.width - 10 - text_width(message), y},
-            s_.wrong_ ? colour::kWrong : colour::kGood);
+  draw_text(canvas_, message, {size.width - 10 - text_width(message), y}, paint);
 }
 
 void AnnotationCanvas::draw_help() {
@@ -105,8 +151,10 @@ void AnnotationCanvas::draw_help() {
   const cv::Size size = s_.options_.canvas_px;
   const int rows = static_cast<int>(help.size());
   const int row = std::min(24, (size.height - 40) / rows), width = 760, height = rows * row + 34;
-  const cv::Rect box((size.width - width) / 2, std::max(4, (size.height - height) / 2), width,
-                     height);
+  constexpr int kLandmarks = 460, kGap = 10;
+  const bool landmarks = size.width >= width + kLandmarks + 3 * kGap;
+  const cv::Rect box(landmarks ? kGap : (size.width - width) / 2,
+                     std::max(4, (size.height - height) / 2), width, height);
   shade(canvas_, {0, 0, size.width, size.height}, 0.5);
   shade(canvas_, box, 0.25);
   cv::rectangle(canvas_, box, colour::kLine);
@@ -116,6 +164,12 @@ void AnnotationCanvas::draw_help() {
     draw_text(canvas_, entry.does, {box.x + 150, y}, colour::kText, 0.47);
     y += row;
   }
+  if (!landmarks) return;
+  const cv::Rect figure(box.x + width + kGap, box.y, size.width - width - 3 * kGap,
+                        std::min(420, height));
+  shade(canvas_, figure, 0.25);
+  cv::rectangle(canvas_, figure, colour::kLine);
+  draw_landmarks(canvas_, figure);
 }
 
 }  // namespace stride::annotation

@@ -59,6 +59,10 @@ Command command_of(int code) {
       return redo;
     case 'z':
       return zoom;
+    case ';':
+      return zoom_to_runner;
+    case key::kTab:
+      return play;
     case 'h':
       return toggle_hips;
     case 'e':
@@ -116,6 +120,7 @@ const std::vector<KeyHelp>& key_help() {
       {"b", "begin a range here; it reaches to the frame shown"},
       {"t", "trim the clip to the range; without one: whole clip again"},
       {"wheel  z", "zoom at the mouse; z: 8 times and back. Middle button: pan"},
+      {";  Tab", "zoom to the runner; play and stop"},
       {"o  p", "floor line: two clicks; from the standing feet"},
       {"y  m  g", "slow-motion factor, treadmill, notes"},
       {"h e", "ask for hips, for the head too"},

@@ -32,6 +32,8 @@ enum class Command {
   undo,
   redo,
   zoom,
+  zoom_to_runner,
+  play,
   toggle_hips,
   toggle_head,
   finer_phases,

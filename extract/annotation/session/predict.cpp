@@ -6,6 +6,7 @@
 
 #include "extract/annotation/asking.h"
 #include "extract/tracking/leg_identity.h"
+#include "extract/tracking/time_check.h"
 #include "extract/tracking/track.h"
 
 namespace stride::annotation {
@@ -71,6 +72,9 @@ std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore&
     prediction.trajectory = tracked.trajectory;
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);
+    if (prediction.stride_frames > 0)
+      prediction.doubt = tracking::doubt_of_period(prediction.stride_frames /
+                                         (frames.info().rate_hz * keypoints.slow_motion));
   } catch (const GivenUp&) {
     return std::nullopt;
   }

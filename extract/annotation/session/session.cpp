@@ -105,6 +105,8 @@ void AnnotationSession::tell(std::string message, bool wrong) {
 }
 
 void AnnotationSession::handle(const AnnotationEvent& event) {
+  const bool toggles = event.kind == AnnotationEvent::Kind::key && event.key == key::kTab;
+  if (event.kind != AnnotationEvent::Kind::move && !toggles) playing_ = false;
   try {
     switch (event.kind) {
       case AnnotationEvent::Kind::press:
@@ -131,6 +133,29 @@ void AnnotationSession::set_prediction(Prediction prediction) {
   prediction_ = std::move(prediction);
   passed_by_.clear();
 }
+
+void AnnotationSession::resize(cv::Size canvas_px) {
+  constexpr int kLeastWidth = 800, kLeastHeight = 500;
+  canvas_px = {std::max(canvas_px.width, kLeastWidth), std::max(canvas_px.height, kLeastHeight)};
+  if (canvas_px == options_.canvas_px) return;
+  options_.canvas_px = canvas_px;
+  const double magnified = view_.scale / view_.fitting_scale();
+  const Eigen::Vector2d middle = view_.to_image(
+      {view_.area.x + view_.area.width / 2.0, view_.area.y + view_.area.height / 2.0});
+  view_.area = AnnotationCanvas::image_area(canvas_px);
+  view_.fit();
+  if (magnified > 1) view_.zoom(magnified * view_.scale, view_.to_canvas(middle));
+  area_frame_ = -1;
+}
+
+void AnnotationSession::show_next() {
+  const auto& trim = keypoints().trim;
+  const int first = trim ? trim->first : 0,
+            last = std::min(trim ? trim->last : frames_.count() - 1, frames_.count() - 1);
+  go_to(frame_ >= last || frame_ < first ? first : frame_ + 1);
+}
+
+double AnnotationSession::frame_s() const { return 1 / std::max(frames_.info().rate_hz, 1.0); }
 
 bool AnnotationSession::rest() {
   if (journal_.is_folded()) return false;
@@ -192,6 +217,11 @@ void AnnotationSession::release(const AnnotationEvent& event) {
   const Grip grip = std::exchange(grip_, {});
   if (grip.what != Grip::What::point) return;
   if (!grip.moved && (event.p_canvas - grip.from_canvas).norm() <= kDragThreshold) {
+    if (asked_ && is_double_click(grip))
+      return tell(
+          fmt::format("a double click? {} is there already; click again to put {} there too",
+                      spoken(grip.part, near_leg()), spoken(*asked_, near_leg())),
+          true);
     if (asked_) return place_asked(event.p_canvas, grip.state);
     last_ = grip.part;
     return;
@@ -201,6 +231,16 @@ void AnnotationSession::release(const AnnotationEvent& event) {
   // The point keeps its distance from the mouse, so that gripping it does not move it.
   const Eigen::Vector2d by_px = (event.p_canvas - grip.from_canvas) / view_.scale;
   place(grip.part, view_.inside((*here)[grip.part]->p_px + by_px), (*here)[grip.part]->state);
+}
+
+bool AnnotationSession::is_double_click(const Grip& grip) {
+  const bool on_the_last = grip.state == ClickState::seen && grip.part == last_;
+  if (!on_the_last || doubled_ == asked_) {
+    doubled_.reset();
+    return false;
+  }
+  doubled_ = asked_;
+  return true;
 }
 
 std::optional<BodyPart> AnnotationSession::click_at(const Eigen::Vector2d& canvas) const {

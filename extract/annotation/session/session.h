@@ -32,6 +32,7 @@ struct Prediction {
   std::vector<int> suspects;  // frames where left and right seem to be swapped
   int revision = -1;          // AnnotationDocument::revision() of the clicks it was made from
   std::string problem;        // why there is none, for the user
+  std::string doubt;          // of the clip's time, with the cure
 };
 
 struct AnnotationOptions {
@@ -57,6 +58,14 @@ class AnnotationSession {
   bool rest();
 
   cv::Mat picture();
+
+  /// Another size of the window, at least 800 x 500.
+  void resize(cv::Size canvas_px);
+
+  bool playing() const { return playing_; }
+  /// While it plays: the next frame; after the last one the first.
+  void show_next();
+  double frame_s() const;  // of the video, how long one is shown
 
   bool done() const { return done_; }
   int frame() const { return frame_; }
@@ -99,10 +108,13 @@ class AnnotationSession {
   void accept_ghost();
   void take_back(bool again);
   void close_up();
+  void zoom_to_runner();
   void mark_floor_from_feet();
 
   void place(BodyPart part, const Eigen::Vector2d& p_px, ClickState state);
   void place_asked(const Eigen::Vector2d& canvas, ClickState state);
+  /// A click on the part that was placed just before, for the first time.
+  bool is_double_click(const Grip& grip);
   void advance(BodyPart after);
   void ask_first_missing();
   void nudge(const Eigen::Vector2d& move_px);
@@ -135,6 +147,7 @@ class AnnotationSession {
   Grip grip_;
   int frame_ = 0;
   std::optional<BodyPart> asked_, last_;  // asked for now; placed or chosen last
+  std::optional<BodyPart> doubled_;       // asked for when a double click was caught
   std::optional<int> range_from_;
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Constant(-1);  // on the canvas
   Eigen::Vector2d floor_from_ = Eigen::Vector2d::Zero();
@@ -145,7 +158,7 @@ class AnnotationSession {
   View area_view_;  // of shown_area_
   int area_frame_ = -1;
   std::string message_;
-  bool wrong_ = false, help_ = false, done_ = false;
+  bool wrong_ = false, help_ = false, playing_ = false, done_ = false;
 };
 
 }  // namespace stride::annotation

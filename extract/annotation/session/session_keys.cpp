@@ -1,6 +1,7 @@
 // What the keys of AnnotationSession do.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "extract/annotation/asking.h"
 #include "extract/annotation/checks.h"
@@ -122,6 +123,30 @@ void AnnotationSession::close_up() {
   view_.zoom(kCloseUp, view_.contains(mouse_) ? mouse_ : middle);
 }
 
+void AnnotationSession::zoom_to_runner() {
+  const ClickedFrame* here = clicked(frame_);
+  const TrajectoryFrame* tracked = predicted(frame_);
+  Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
+  for (const BodyPart part : kBodyParts) {
+    Eigen::Vector2d p = Eigen::Vector2d::Constant(std::nan(""));
+    if (tracked) p = (*tracked)[part].p_px;
+    if (here && here->placed(part)) p = (*here)[part]->p_px;
+    if (!p.allFinite()) continue;
+    low = low.min(p.array());
+    high = high.max(p.array());
+  }
+  if ((high < low).any()) return tell("no part of the runner is known here yet", true);
+  constexpr double kAround = 1.6;  // arms and head are above
+  const double size_px = std::max((high - low).maxCoeff(), 20.0);
+  const Eigen::Vector2d middle = (0.5 * (low + high)).matrix();
+  view_.fit();
+  const Eigen::Vector2d canvas = view_.to_canvas(middle),
+                        centre(view_.area.x + view_.area.width / 2.0,
+                               view_.area.y + view_.area.height / 2.0);
+  view_.zoom(std::min(view_.area.width, view_.area.height) / (kAround * size_px), canvas);
+  view_.pan(centre - view_.to_canvas(middle));
+}
+
 void AnnotationSession::mark_floor_from_feet() {
   ClipSettings settings = settings_of(keypoints());
   settings.floor = floor_from_feet(prediction_.trajectory, stride_frames());
@@ -151,6 +176,11 @@ void AnnotationSession::command(Command command, int key) {
       return nudge({-kNudge, 0});
     case Command::nudge_right:
       return nudge({kNudge, 0});
+    case Command::zoom_to_runner:
+      return zoom_to_runner();
+    case Command::play:
+      playing_ = !playing_;
+      return;
     case Command::swap_legs:
       return swap_legs();
     case Command::begin_range:

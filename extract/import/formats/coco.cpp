@@ -47,24 +47,39 @@ std::vector<std::string> layout_or_fail(const JsonValue& keypoints) {
   return labels;
 }
 
-DetectedPeople read_results(const JsonValue& root, const std::string& file) {
-  DetectedPeople people;
+ImportedFile read_results(const JsonValue& root, const std::string& file) {
+  ImportedFile content;
   for (std::size_t i = 0; i < root.size(); ++i) {
     const JsonValue entry = root[i], keypoints = entry["keypoints"];
     const LabelMap map(layout_or_fail(keypoints), {}, file);
-    people.push_back(
+    content.people.push_back(
         {frame_of(entry["image_id"]), id_of(entry), map.parts(points_of(keypoints, false))});
   }
-  return people;
+  return content;
 }
 
-DetectedPeople read_annotations(const JsonValue& root, const std::string& file,
-                                const ImportOptions& options) {
-  std::map<int, int> frames;  // by image id
+struct Image {
+  int frame = -1;  // not said
+  int width_px = 0, height_px = 0;
+};
+
+std::map<int, Image> images_of(const JsonValue& root) {
+  std::map<int, Image> images;  // by id
+  const auto size = [](const JsonValue& image, const char* key) {
+    const int px = image.has(key) && image[key].is_number() ? image[key].integer() : 0;
+    return px > 0 && px < 100000 ? px : 0;
+  };
   for (std::size_t i = 0; root.has("images") && i < root["images"].size(); ++i) {
     const JsonValue image = root["images"][i];
-    if (image.has("file_name")) frames[image["id"].integer()] = frame_of(image["file_name"]);
+    images[image["id"].integer()] = {image.has("file_name") ? frame_of(image["file_name"]) : -1,
+                                     size(image, "width"), size(image, "height")};
   }
+  return images;
+}
+
+ImportedFile read_annotations(const JsonValue& root, const std::string& file,
+                              const ImportOptions& options) {
+  const std::map<int, Image> images = images_of(root);
   std::vector<std::string> labels;
   for (std::size_t i = 0; root.has("categories") && i < root["categories"].size(); ++i) {
     const JsonValue category = root["categories"][i];
@@ -73,23 +88,27 @@ DetectedPeople read_annotations(const JsonValue& root, const std::string& file,
       labels.push_back(category["keypoints"][k].text());
   }
   const JsonValue annotations = root["annotations"];
-  DetectedPeople people;
+  ImportedFile content;
   for (std::size_t i = 0; i < annotations.size(); ++i) {
     const JsonValue entry = annotations[i], keypoints = entry["keypoints"];
     const LabelMap map(labels.empty() ? layout_or_fail(keypoints) : labels, options.labels, file);
-    const int image = entry["image_id"].integer();
-    const auto known = frames.find(image);
-    const int frame = known != frames.end() ? known->second : image;
+    const int id = entry["image_id"].integer();
+    const auto known = images.find(id);
+    const Image image = known != images.end() ? known->second : Image{};
+    const int frame = image.frame >= 0 ? image.frame : id;
     if (frame < 0) entry["image_id"].fail("the number of a frame");
-    people.push_back({frame, "", map.parts(points_of(keypoints, true))});
+    content.people.push_back(
+        {frame, "", map.parts(points_of(keypoints, true)), image.width_px, image.height_px});
+    content.labels = labels;
+    content.unused_labels = map.unused(labels);
   }
-  return people;
+  return content;
 }
 
 }  // namespace
 
-DetectedPeople read_coco(std::string_view content, const std::string& file,
-                         const ImportOptions& options) {
+ImportedFile read_coco(std::string_view content, const std::string& file,
+                       const ImportOptions& options) {
   const JsonFile json(content, file);
   const JsonValue root = json.root();
   return root.is_object() ? read_annotations(root, file, options) : read_results(root, file);

@@ -88,9 +88,9 @@ class Reader {
 
 }  // namespace
 
-DetectedPeople read_cvat(std::string_view content, const std::string& file,
-                         const ImportOptions& options) {
-  const std::vector<Mark> marks = Reader(content, file).read();
+ImportedFile read_cvat(std::string_view text, const std::string& file,
+                       const ImportOptions& options) {
+  const std::vector<Mark> marks = Reader(text, file).read();
   std::vector<std::string> labels;
   for (const Mark& mark : marks)
     if (std::ranges::find(labels, mark.label) == labels.end()) labels.push_back(mark.label);
@@ -103,10 +103,12 @@ DetectedPeople read_cvat(std::string_view content, const std::string& file,
     points[static_cast<std::size_t>(std::ranges::find(labels, mark.label) - labels.begin())] =
         mark.point;
   }
-  DetectedPeople people;
+  ImportedFile content;
+  content.labels = labels;
+  content.unused_labels = map.unused(labels);
   for (const auto& [key, points] : frames)
-    people.push_back({key.second, key.first, map.parts(points)});
-  return people;
+    content.people.push_back({key.second, key.first, map.parts(points)});
+  return content;
 }
 
 }  // namespace stride::imports

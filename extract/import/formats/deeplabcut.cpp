@@ -87,9 +87,9 @@ int frame_of(const TextLine& line, std::size_t first_column, const std::string& 
 
 }  // namespace
 
-DetectedPeople read_deeplabcut(std::string_view content, const std::string& file,
-                               const ImportOptions& options) {
-  const std::vector<TextLine> lines = split_lines(content, ',');
+ImportedFile read_deeplabcut(std::string_view text, const std::string& file,
+                             const ImportOptions& options) {
+  const std::vector<TextLine> lines = read_text_table(text, file).lines;
   const Header header = read_header(lines, file);
   const std::vector<Animal> animals = find_animals(header, file);
   require(!animals.empty(), "{}:{}: expected columns after the first", file, header.coords->number);
@@ -97,16 +97,18 @@ DetectedPeople read_deeplabcut(std::string_view content, const std::string& file
   for (const Animal& animal : animals)
     first_column = std::min(first_column, animal.columns.columns[0][0]);
 
-  DetectedPeople people;
+  ImportedFile content;
   for (const Animal& animal : animals) {
     const LabelMap map(animal.columns.labels, options.labels, file);
+    content.labels = animal.columns.labels;
+    content.unused_labels = map.unused(animal.columns.labels);
     for (std::size_t row = header.rows; row < lines.size(); ++row) {
       check_width(lines[row], *header.coords, file);
-      people.push_back({frame_of(lines[row], first_column, file), animal.id,
-                        map.parts(animal.columns.points(lines[row], file))});
+      content.people.push_back({frame_of(lines[row], first_column, file), animal.id,
+                                map.parts(animal.columns.points(lines[row], file))});
     }
   }
-  return people;
+  return content;
 }
 
 }  // namespace stride::imports

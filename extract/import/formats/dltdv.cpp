@@ -5,26 +5,24 @@
 
 namespace stride::imports {
 
-DetectedPeople read_dltdv(std::string_view content, const std::string& file,
-                          const ImportOptions& options) {
-  const std::vector<TextLine> lines = split_lines(content, ',');
+ImportedFile read_dltdv(std::string_view text, const std::string& file,
+                        const ImportOptions& options) {
+  const std::vector<TextLine> lines = read_text_table(text, file).lines;
   require(!lines.empty(), "{}:1: expected DLTdv's header pt1_cam1_X,pt1_cam1_Y,…", file);
   const PointColumns columns =
       find_point_columns(lines[0], file, {"_cam1_X", "_cam1_Y", "_cam1_confidence"});
   const LabelMap map(columns.labels, options.labels, file);
-  DetectedPeople people;
+  ImportedFile content;
+  content.labels = columns.labels;
+  content.unused_labels = map.unused(columns.labels);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     check_width(lines[i], lines[0], file);
     std::vector<Point> points = columns.points(lines[i], file);
-    for (Point& point : points) {
-      // Their first pixel is (1, 1): at the top left in DLTdv8, at the bottom left before.
-      point.p_px.x() -= 1;
-      point.p_px.y() =
-          options.y_up_height_px > 0 ? options.y_up_height_px - point.p_px.y() : point.p_px.y() - 1;
-    }
-    people.push_back({static_cast<int>(i) - 1, "runner", map.parts(points)});
+    // Their first pixel is (1, 1): at the top left in DLTdv8, at the bottom left before (--y-up).
+    for (Point& point : points) point.p_px.array() -= 1;
+    content.people.push_back({static_cast<int>(i) - 1, "runner", map.parts(points)});
   }
-  return people;
+  return content;
 }
 
 }  // namespace stride::imports

@@ -25,11 +25,11 @@ std::vector<std::string> labels_of(const JsonValue& root, const JsonValue& keypo
 
 }  // namespace
 
-DetectedPeople read_mmpose(std::string_view content, const std::string& file,
-                           const ImportOptions& options) {
-  const JsonFile json(content, file);
+ImportedFile read_mmpose(std::string_view text, const std::string& file,
+                         const ImportOptions& options) {
+  const JsonFile json(text, file);
   const JsonValue root = json.root(), frames = root["instance_info"];
-  DetectedPeople people;
+  ImportedFile content;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const int frame = frames[i]["frame_id"].integer() - 1;  // they count from 1
     if (frame < 0) frames[i]["frame_id"].fail("the number of a frame, from 1");
@@ -46,10 +46,10 @@ DetectedPeople read_mmpose(std::string_view content, const std::string& file,
         if (scores[j] > 0) points[j] = {{xy[0], xy[1]}, scores[j]};
       }
       const LabelMap map(labels_of(root, keypoints), options.labels, file);
-      people.push_back({frame, "", map.parts(points)});
+      content.people.push_back({frame, "", map.parts(points)});
     }
   }
-  return people;
+  return content;
 }
 
 }  // namespace stride::imports

@@ -6,13 +6,14 @@
 
 namespace stride::imports {
 
-DetectedPeople read_openpose(std::string_view content, const std::string& file, int frame) {
-  const JsonFile json(content, file);
+ImportedFile read_openpose(std::string_view text, const std::string& file, int frame) {
+  const JsonFile json(text, file);
   const JsonValue people = json.root()["people"];
-  DetectedPeople detected;
+  ImportedFile content;
   for (std::size_t i = 0; i < people.size(); ++i) {
     const JsonValue keypoints = people[i]["pose_keypoints_2d"];
     const std::vector<double> numbers = keypoints.numbers();
+    if (numbers.empty()) continue;  // a face or hands without a body
     const std::vector<std::string> labels = layout_of(numbers.size() / 3);
     if (numbers.size() % 3 != 0 || labels.empty())
       keypoints.fail(fmt::format("3 numbers for each of 15, 18 or 25 points ({} numbers here)",
@@ -22,7 +23,7 @@ DetectedPeople read_openpose(std::string_view content, const std::string& file, 
       const double* xyc = &numbers[3 * k];
       if (xyc[2] > 0 && (xyc[0] != 0 || xyc[1] != 0)) points[k] = {{xyc[0], xyc[1]}, xyc[2]};
     }
-    DetectedPerson& person = detected.emplace_back();
+    DetectedPerson& person = content.people.emplace_back();
     person.frame = frame;
     if (people[i].has("person_id")) {
       const JsonValue id = people[i]["person_id"];
@@ -31,7 +32,7 @@ DetectedPeople read_openpose(std::string_view content, const std::string& file, 
     }
     person.points = LabelMap(labels, {}, file).parts(points);
   }
-  return detected;
+  return content;
 }
 
 }  // namespace stride::imports

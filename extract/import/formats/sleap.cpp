@@ -7,9 +7,9 @@
 
 namespace stride::imports {
 
-DetectedPeople read_sleap(std::string_view content, const std::string& file,
-                          const ImportOptions& options) {
-  const std::vector<TextLine> lines = split_lines(content, ',');
+ImportedFile read_sleap(std::string_view text, const std::string& file,
+                        const ImportOptions& options) {
+  const std::vector<TextLine> lines = read_text_table(text, file).lines;
   require(!lines.empty(), "{}:1: expected SLEAP's header track,frame_idx,…", file);
   const TextLine& header = lines.front();
   const auto column = [&](const char* name) {
@@ -21,13 +21,15 @@ DetectedPeople read_sleap(std::string_view content, const std::string& file,
   const std::size_t track = column("track"), frame = column("frame_idx");
   const PointColumns columns = find_point_columns(header, file, {".x", ".y", ".score"});
   const LabelMap map(columns.labels, options.labels, file);
-  DetectedPeople people;
+  ImportedFile content;
+  content.labels = columns.labels;
+  content.unused_labels = map.unused(columns.labels);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     check_width(lines[i], header, file);
-    people.push_back({frame_in(lines[i], frame, file), lines[i].cells[track],
-                      map.parts(columns.points(lines[i], file))});
+    content.people.push_back({frame_in(lines[i], frame, file), lines[i].cells[track],
+                              map.parts(columns.points(lines[i], file))});
   }
-  return people;
+  return content;
 }
 
 }  // namespace stride::imports

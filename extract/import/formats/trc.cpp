@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "extract/import/formats/formats.h"
@@ -35,11 +36,22 @@ int frame_at(const TextLine& line, double rate_hz, const std::string& file) {
   return timed == numbered || timed == numbered - 1 ? static_cast<int>(timed) : numbered;
 }
 
+/// How many rows the header announces; 0 if it does not say.
+double announced_frames(const std::vector<TextLine>& lines, const std::string& file) {
+  const auto& names = lines[1].cells;
+  const auto column =
+      static_cast<std::size_t>(std::ranges::find(names, "NumFrames") - names.begin());
+  return column < lines[2].cells.size() ? number_in(lines[2], column, file) : 0;
+}
+
 }  // namespace
 
-DetectedPeople read_trc(std::string_view content, const std::string& file,
-                        const ImportOptions& options) {
-  const std::vector<TextLine> lines = split_lines(content, '\t');
+ImportedFile read_trc(std::string_view text, const std::string& file,
+                      const ImportOptions& options) {
+  const std::vector<TextLine> lines = read_text_table(text, file, '\t').lines;
+  require(
+      lines.empty() || lines[0].cells.size() > 1 || !lines[0].cells[0].starts_with("PathFileType "),
+      "{}:1: cells are separated by blanks: TRC separates them by tabs; save it so again", file);
   require(lines.size() > 4 && lines[0].cells[0] == "PathFileType",
           "{}:1: expected the five header lines of TRC, the first with PathFileType", file);
   const auto header_cell = [&](std::string_view name) {
@@ -55,21 +67,30 @@ DetectedPeople read_trc(std::string_view content, const std::string& file,
 
   const PointColumns columns = markers(lines[3], file);
   const LabelMap map(columns.labels, options.labels, file);
-  DetectedPeople people;
+  ImportedFile content;
+  content.labels = columns.labels;
+  content.unused_labels = map.unused(columns.labels);
   double largest = 0;
-  for (std::size_t i = 5; i < lines.size(); ++i) {
+  const int rows = static_cast<int>(lines.size()) - 5;
+  const double announced = announced_frames(lines, file);
+  if (announced > rows)
+    content.warnings.push_back(fmt::format(
+        "NumFrames = {}, but {} rows are there: the file was cut off{}", announced, rows,
+        text.ends_with('\n') ? "" : ", perhaps inside its last number; that row is left out"));
+  const std::size_t end = lines.size() - (announced > rows && !text.ends_with('\n') ? 1 : 0);
+  for (std::size_t i = 5; i < end; ++i) {
     TextLine line = lines[i];
     line.cells.resize(std::max(line.cells.size(), lines[3].cells.size() + 2));
-    people.push_back(
+    content.people.push_back(
         {frame_at(line, rate_hz, file), "runner", map.parts(columns.points(line, file))});
-    for (const Point& point : people.back().points)
+    for (const Point& point : content.people.back().points)
       if (point.present()) largest = std::max(largest, point.p_px.lpNorm<Eigen::Infinity>());
   }
   // Sports2D says "m" even where it means pixels; nobody runs in a picture of 20 pixels.
   require(units != "mm" && (units != "m" || largest > 20),
           "{}:{}: Units = {}: these are not pixels; expected the file with _px in its name", file,
           lines[2].number, units);
-  return people;
+  return content;
 }
 
 }  // namespace stride::imports

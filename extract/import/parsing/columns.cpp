@@ -16,14 +16,12 @@ std::array<std::size_t, 3>& PointColumns::of(const std::string& label) {
   return columns[i];
 }
 
-std::vector<Point> PointColumns::points(const TextLine& line, const std::string& file,
-                                        char decimal_sign) const {
+std::vector<Point> PointColumns::points(const TextLine& line, const std::string& file) const {
   std::vector<Point> points(labels.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [x, y, confidence] = columns[i];
-    points[i].p_px = {number_in(line, x, file, decimal_sign),
-                      number_in(line, y, file, decimal_sign)};
-    const double value = confidence == kNone ? 1 : number_in(line, confidence, file, decimal_sign);
+    points[i].p_px = {number_in(line, x, file), number_in(line, y, file)};
+    const double value = confidence == kNone ? 1 : number_in(line, confidence, file);
     points[i].confidence = value > 0 ? value : 0;
   }
   return points;

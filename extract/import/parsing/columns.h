@@ -21,8 +21,7 @@ struct PointColumns {
   std::array<std::size_t, 3>& of(const std::string& label);
 
   /// The points of one line. Without a confidence column a point has confidence 1.
-  std::vector<Point> points(const TextLine& line, const std::string& file,
-                            char decimal_sign = '.') const;
+  std::vector<Point> points(const TextLine& line, const std::string& file) const;
 };
 
 /// Finds columns named LABEL + suffix. Throws Error if a label has x without y or y without x, or

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,19 +12,23 @@
 namespace stride::imports {
 
 struct ImportOptions {
-  std::string format;         // one of import_formats(); empty: told from the content
-  int person = 0;             // 1 = largest sustained, 2 = the next …; 0: the largest sustained
-  double min_confidence = 0;  // points below it count as absent
+  std::string format;           // one of import_formats(); empty: told from the content
+  int person = 0;               // 1 = largest sustained, 2 = the next …; 0: the largest sustained
+  double min_confidence = 0.1;  // points below it count as absent
   /// Labels of the file for our parts ("knee_r" → "pt3"), before the usual spellings are tried.
   std::map<std::string, std::string> labels;
-  int y_up_height_px = 0;  // height of the video where the file's y grows upwards; 0: y down
-  double rate_hz = 0;      // frame rate of the video, for files that say times and no frames
+  int y_up_height_px = 0;       // height of the video where the file's y grows upwards; 0: y down
+  double rate_hz = 0;           // frame rate of the video, for files that say times and no frames
+  bool rate_was_given = false;  // by the user, not taken from the video
+  std::vector<int> size_px;     // width and height of the picture of the points; empty: the video's
+  std::optional<int> first_frame;  // what the file calls the video's first frame; else told from it
 };
 
 /// What a file says of one frame. A part that was not seen is absent (`Point::present()`).
 struct ImportedFrame {
   int frame = 0;  // index in decoding order, from 0
   std::array<Point, kBodyPartCount> points;
+  int width_px = 0, height_px = 0;  // of the picture that they were made on, if the file says it
 
   const Point& operator[](BodyPart part) const { return points[index(part)]; }
   Point& operator[](BodyPart part) { return points[index(part)]; }
@@ -43,6 +48,9 @@ struct Detections {
   std::vector<ImportedFrame> frames;   // growing `frame`, each with at least one point
   std::vector<ImportedPerson> people;  // everybody in the file, largest sustained first
   int person = 1;                      // the one taken, counted from 1
+  std::string file;                    // or folder that was read, for messages
+  std::string video, video_sha256;     // that the file names
+  std::vector<std::string> warnings;   // for the user
 };
 
 /// One person in one frame.
@@ -50,7 +58,17 @@ struct DetectedPerson {
   int frame = 0;
   std::string id;  // the file's name for this person; empty: not said
   std::array<Point, kBodyPartCount> points;
+  int width_px = 0, height_px = 0;  // of the picture, if the file says it
 };
 using DetectedPeople = std::vector<DetectedPerson>;
+
+/// Everything that a file holds.
+struct ImportedFile {
+  DetectedPeople people;
+  std::string video, video_sha256;         // that it names
+  std::vector<std::string> labels;         // of its points, all of them
+  std::vector<std::string> unused_labels;  // that are no part of ours
+  std::vector<std::string> warnings;       // for the user
+};
 
 }  // namespace stride::imports

@@ -95,6 +95,30 @@ class Search : public nlohmann::json_sax<json> {
   std::vector<Level> path_;
 };
 
+/// JSON as Python writes it where a number is missing: NaN and Infinity, which JSON does not know,
+/// become null.
+std::string without_nan(std::string_view content) {
+  std::string text;
+  bool quoted = false;
+  for (std::size_t i = 0; i < content.size(); ++i) {
+    const char c = content[i];
+    if (c == '"' && (i == 0 || content[i - 1] != '\\')) quoted = !quoted;
+    const auto is = [&](std::string_view word) { return content.substr(i).starts_with(word); };
+    const std::size_t length = quoted            ? 0
+                               : is("NaN")       ? 3
+                               : is("-Infinity") ? 9
+                               : is("Infinity")  ? 8
+                                                 : 0;
+    if (length == 0) {
+      text += c;
+      continue;
+    }
+    text += "null";
+    i += length - 1;
+  }
+  return text;
+}
+
 long line_at(std::string_view content, const char* position) {
   return 1 + std::count(content.data(), position, '\n');
 }
@@ -107,6 +131,17 @@ long line_of(std::string_view content, const std::string& pointer) {
   return line_at(content, progress);
 }
 
+/// Where the parser gave up for a number that no double holds.
+long line_of_overflow(std::string_view content) {
+  const char* progress = content.data();
+  try {
+    const json ignored = json::parse(CountingIterator(content.data(), &progress),
+                                     CountingIterator(content.data() + content.size(), &progress));
+  } catch (const json::exception&) {
+  }
+  return line_at(content, progress);
+}
+
 }  // namespace
 
 JsonFile::~JsonFile() = default;
@@ -115,13 +150,21 @@ JsonFile::JsonFile(JsonFile&&) noexcept = default;
 JsonFile::JsonFile(std::string_view content, std::string file)
     : content_(content), file_(std::move(file)), json_(std::make_unique<json>()) {
   try {
-    *json_ = json::parse(content);
+    *json_ = json::parse(content, nullptr, /*allow_exceptions=*/true);
   } catch (const json::parse_error& e) {
+    if (const std::string text = without_nan(content); text != content) {
+      const json again = json::parse(text, nullptr, /*allow_exceptions=*/false);
+      if (!again.is_discarded()) {
+        *json_ = again;
+        return;
+      }
+    }
     const std::size_t byte = std::min(e.byte == 0 ? 0 : e.byte - 1, content.size());
     throw Error(fmt::format("{}:{}: not valid JSON at byte {}: expected a whole JSON document",
                             file_, line_at(content, content.data() + byte), byte));
   } catch (const json::exception& e) {
-    throw Error(fmt::format("{}: JSON that cannot be held: {}", file_, e.what()));
+    throw Error(fmt::format("{}:{}: a number that is too large for JSON", file_,
+                            line_of_overflow(content)));
   }
 }
 

@@ -118,6 +118,13 @@ std::array<Point, kBodyPartCount> LabelMap::parts(std::span<const Point> points)
   return parts;
 }
 
+std::vector<std::string> LabelMap::unused(std::span<const std::string> labels) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (targets_[i].empty() && !labels[i].empty()) names.push_back(labels[i]);
+  return names;
+}
+
 std::vector<std::string> layout_of(std::size_t points) {
   const std::vector<std::string> coco{"nose",  "",       "",       "ear_l",   "ear_r",  "",
                                       "",      "",       "",       "",        "",       "hip_l",

@@ -24,6 +24,9 @@ class LabelMap {
   /// those without finite coordinates.
   std::array<Point, kBodyPartCount> parts(std::span<const Point> points) const;
 
+  /// Labels that are no part of ours.
+  std::vector<std::string> unused(std::span<const std::string> labels) const;
+
  private:
   struct Target {
     BodyPart part;

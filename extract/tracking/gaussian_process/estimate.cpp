@@ -166,9 +166,28 @@ double negative_log_likelihood(const GaitPrior& prior, const Observations& obser
   return sum;
 }
 
+/// The middle of a long clip: as much as one regression takes.
+Observations middle_of(const Observations& observations, double origin_s) {
+  double reach_s = 0;  // from the origin
+  for (const auto& part : observations)
+    for (const Observation& o : part) reach_s = std::max(reach_s, std::abs(o.time_s - origin_s));
+  Observations some = observations;
+  const auto most = [&] {
+    std::size_t size = 0;
+    for (const auto& part : some) size = std::max(size, part.size());
+    return size;
+  };
+  while (most() > kMostTogether) {
+    reach_s *= std::min(0.9, static_cast<double>(kMostTogether) / static_cast<double>(most()));
+    some = between(some, origin_s - reach_s, origin_s + reach_s);
+  }
+  return some;
+}
+
 }  // namespace
 
-GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations) {
+GaitPrior with_period_of(const GaitPrior& prior, const Observations& all) {
+  const Observations observations = middle_of(all, prior.origin_s);
   GaitPrior best = prior;
   double least = negative_log_likelihood(best, observations);
   for (double step = 0.01; step > 0.0005; step /= 2)

@@ -112,7 +112,8 @@ int facing(const Observations& clicks) {
 
 }  // namespace
 
-GaitPrior fit_gait_prior(const Observations& all_clicks) {
+std::vector<GaitPrior> likely_gait_priors(const Observations& all_clicks,
+                                          const PeriodBounds& bounds) {
   const Observations clicks = thinned(all_clicks);
   GaitPrior prior;
   double first = std::numeric_limits<double>::infinity(), last = -first;
@@ -128,13 +129,22 @@ GaitPrior fit_gait_prior(const Observations& all_clicks) {
   // The pelvis at first by a nearly free spline, then together with the legs.
   prior.trunk.residual = 1;
   const auto legs = leg_data(prior, clicks);
-  if (legs.empty()) return prior;
-  prior.legs = fitted(legs, facing(clicks)).kernel;
-  prior.trunk = GaitKernel();
-  prior.trunk.period_s = prior.legs.period_s;
-  prior.legs.noise_px /= std::numbers::sqrt2;  // a part of it was the noise of the pelvis
-  prior.trunk.noise_px = prior.legs.noise_px;
-  return refined_together(prior, joint_data(prior, clicks), 3);
+  if (legs.empty()) return {prior};
+  std::vector<GaitPrior> likely;
+  for (const Fitted& fit : fitted(legs, facing(clicks), bounds)) {
+    GaitPrior own = prior;
+    own.legs = fit.kernel;
+    own.trunk = GaitKernel();
+    own.trunk.period_s = own.legs.period_s;
+    own.legs.noise_px /= std::numbers::sqrt2;  // a part of it was the noise of the pelvis
+    own.trunk.noise_px = own.legs.noise_px;
+    likely.push_back(refined_together(own, joint_data(own, clicks), 3));
+  }
+  return likely;
+}
+
+GaitPrior fit_gait_prior(const Observations& clicks, const PeriodBounds& bounds) {
+  return likely_gait_priors(clicks, bounds).front();
 }
 
 }  // namespace stride::gaussian_process

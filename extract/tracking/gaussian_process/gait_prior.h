@@ -2,16 +2,22 @@
 
 #include <vector>
 
+#include "extract/skeleton/stride_period.h"
 #include "extract/tracking/gaussian_process/gait_process.h"
 
 namespace stride::gaussian_process {
 
 /// The kernels under which the clicks are most likely, by their marginal likelihood. Observation
 /// variances are ignored: the noise of a click is what is found.
-GaitPrior fit_gait_prior(const Observations& clicks);
+GaitPrior fit_gait_prior(const Observations& clicks, const PeriodBounds& bounds = {});
+
+/// The same, and after it a second one of another period if the clicks hardly tell the two apart:
+/// then the picture between them has to.
+std::vector<GaitPrior> likely_gait_priors(const Observations& clicks, const PeriodBounds& bounds);
 
 /// The prior with the period, near its own, under which the observations are most likely, ways
-/// included: what the picture shows between clicks tells periods apart that the clicks cannot.
+/// included: what the picture shows between clicks tells periods apart that the clicks cannot. Of a
+/// long clip its middle is used.
 GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations);
 
 /// Each part at each time given the observations; pelvis first, the others relative to it. A part

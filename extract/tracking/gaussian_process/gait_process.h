@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "extract/skeleton/body_part.h"
+#include "extract/skeleton/stride_period.h"
 
 namespace stride::gaussian_process {
 

@@ -44,7 +44,8 @@ double negative_log_likelihood(const GaitKernel& kernel, const std::vector<Group
   return sum;
 }
 
-/// A hyperparameter: where it is expected (log-normal) for legs and trunk, and allowed.
+/// A hyperparameter: where it is expected (log-normal) for legs and trunk, and allowed. What is
+/// expected of the period is period_improbability().
 struct Expected {
   double value, spread;
 };
@@ -54,7 +55,7 @@ struct Hyperparameter {
   double low, high;
 };
 constexpr std::array kHyperparameters{
-    Hyperparameter{&GaitKernel::period_s, {0.75, 0.25}, {0.75, 0.25}, 0.4, 2.2},
+    Hyperparameter{&GaitKernel::period_s, {}, {}, kShortestPeriod_s, kLongestPeriod_s},
     Hyperparameter{&GaitKernel::amplitude, {1, 1}, {1, 0.4}, 0.02, 20},
     Hyperparameter{&GaitKernel::length_scale, {0.75, 0.25}, {1.0, 0.3}, 0.2, 2},
     Hyperparameter{&GaitKernel::coherence_strides, {20, 1}, {20, 1}, 1, 100},
@@ -104,6 +105,10 @@ double improbability(const GaitKernel& kernel, bool legs) {
   for (const Hyperparameter& h : kHyperparameters) {
     const double value = kernel.*h.member;
     if (value < h.low || value > h.high) return std::numeric_limits<double>::infinity();
+    if (h.member == &GaitKernel::period_s) {
+      sum += period_improbability(value);
+      continue;
+    }
     const Expected& expected = legs ? h.legs : h.trunk;
     sum += 0.5 * std::pow(std::log(value / expected.value) / expected.spread, 2);
   }
@@ -129,10 +134,16 @@ Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds) {
   return best;
 }
 
-Fitted fitted(const std::vector<GroupData>& groups, int facing) {
+std::vector<Fitted> fitted(const std::vector<GroupData>& groups, int facing,
+                           const PeriodBounds& bounds) {
+  constexpr double kLeastClicks = 1.6;      // of a stride
+  constexpr double kHardlyLessLikely = 30;  // −log likelihood
   std::vector<Fitted> scan;
-  const double shortest_s = std::clamp(1.6 * median_spacing_s(groups.front().samples), 0.4, 1.2);
-  for (double period_s = shortest_s; period_s < 1.7; period_s *= 1.015) {
+  const double spacing_s = median_spacing_s(groups.front().samples);
+  const double shortest_s =
+      std::max(bounds.shortest_s, std::clamp(kLeastClicks * spacing_s, 0.4, 1.2));
+  for (double period_s = shortest_s; period_s < std::max(bounds.longest_s, 1.1 * shortest_s);
+       period_s *= 1 + 0.015 * std::clamp(period_s / 1.5, 1.0, 2.0)) {
     GaitKernel kernel;
     kernel.period_s = period_s;
     scan.push_back({kernel, cost(kernel, groups)});
@@ -153,8 +164,9 @@ Fitted fitted(const std::vector<GroupData>& groups, int facing) {
   for (Fitted& peak : peaks) peak = refined(peak, groups, 1);
   keep(2, total);
   for (Fitted& peak : peaks) peak = refined(peak, groups, 4);
-  keep(1, total);
-  return peaks.front();
+  keep(2, total);
+  if (peaks.size() == 2 && total(peaks[1]) > total(peaks[0]) + kHardlyLessLikely) peaks.pop_back();
+  return peaks;
 }
 
 }  // namespace stride::gaussian_process

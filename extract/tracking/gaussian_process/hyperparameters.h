@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "extract/skeleton/stride_period.h"
 #include "extract/tracking/gaussian_process/samples.h"
 
 namespace stride::gaussian_process {
@@ -38,9 +39,10 @@ void descend(State& best, double& least, double factor, int most_moves, Multiply
 /// Pattern search in the logarithms, one hyperparameter after another.
 Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds);
 
-/// The best kernels of a scan over the period, refined. The likelihood has a peak at every alias of
-/// the clicks' spacing; the nearest shows the stride backwards in time. `facing`: +1 if the runner
-/// faces right, −1 left, 0 not known.
-Fitted fitted(const std::vector<GroupData>& groups, int facing);
+/// The best kernels of a scan over the period, refined, and after it another one if that is hardly
+/// less likely. The likelihood has a peak at every alias of the clicks' spacing; the nearest shows
+/// the stride backwards in time. `facing`: +1 if the runner faces right, −1 left, 0 not known.
+std::vector<Fitted> fitted(const std::vector<GroupData>& groups, int facing,
+                           const PeriodBounds& bounds);
 
 }  // namespace stride::gaussian_process

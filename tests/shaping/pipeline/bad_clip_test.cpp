@@ -183,6 +183,22 @@ TEST(BadClip, AClipOnItsHeadIsRefused) {
   EXPECT_THAT(verdict_of(clip), StartsWith("refused: knees are above the pelvis"));
 }
 
+TEST(BadClip, AClipTurnedByNinetyDegreesIsRefused) {
+  Clip clip = jogger();
+  const int height = clip.height();
+  for (cv::Mat& frame : clip.frames) cv::rotate(frame.clone(), frame, cv::ROTATE_90_CLOCKWISE);
+  std::swap(clip.clicks.width_px, clip.clicks.height_px);
+  move_clicks(clip,
+              [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(height - 1 - p.y(), p.x()); });
+  EXPECT_THAT(verdict_of(clip), StartsWith("refused: the legs lie level"));
+}
+
+TEST(BadClip, SlowMotionThatNobodyToldIsFoundAndNamed) {
+  Clip clip = jogger();
+  clip.rate_hz /= 4;
+  EXPECT_THAT(verdict_of(clip), HasSubstr("is it slow motion by about 4? say --slow-motion 4"));
+}
+
 TEST(BadClip, LessThanAStrideIsRefusedAndLittleMoreIsTold) {
   Clip clip = jogger();
   const auto keep = [&](int frames) {

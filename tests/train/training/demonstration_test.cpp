@@ -69,6 +69,22 @@ TEST_F(DemonstrationTest, AMissingRunIsAnErrorWithTheCureUnlessNoEpisodeStartsOn
   EXPECT_FALSE(training::load_demonstration({}, {}, starts_on_reference).reference);  // a baseline
 }
 
+TEST_F(DemonstrationTest, WhatIsNoRunOnThisModelIsRefused) {
+  const auto expect_refused = [&](auto change, const char* why) {
+    Potential spoilt = some_potential();
+    change(spoilt);
+    save(spoilt, potential);
+    EXPECT_ERROR(training::load_demonstration(potential, {}, {}), why);
+  };
+  expect_refused([](Potential& p) { p.verdict = "refused: nobody runs here"; },
+                 "the clip behind it was refused");
+  expect_refused([](Potential& p) { p.period_s = 5.49; }, "--slow-motion");
+  expect_refused([](Potential& p) { p.speed_m_s = 18.6; }, "faster than anybody");
+  expect_refused([](Potential& p) { p.model = "giraffe"; }, "was made on the model giraffe");
+  expect_refused([](Potential& p) { p.keyframes[3].pose.pelvis_height_m = 2.4; },
+                 "the pelvis is 2.40 m high");
+}
+
 TEST_F(DemonstrationTest, TheRunFolderHoldsCopiesAndNamesThem) {
   const fs::path run = folder / "run";
   training::TrainOptions options;

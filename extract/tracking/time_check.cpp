@@ -1,0 +1,42 @@
+#include "extract/tracking/time_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stride::tracking {
+
+std::optional<double> likely_slow_motion(double period_s, double shortest_s, double longest_s) {
+  constexpr double kUsual_s = 0.71;  // of runners
+  if (!(period_s > 0) || (period_s >= shortest_s && period_s <= longest_s)) return std::nullopt;
+  const double factor = period_s / kUsual_s;
+  return factor > 1 ? std::max(1.5, std::round(2 * factor) / 2) : std::round(100 * factor) / 100;
+}
+
+std::string doubt_of_period(double period_s, double shortest_s, double longest_s) {
+  const auto factor = likely_slow_motion(period_s, shortest_s, longest_s);
+  if (!factor) return {};
+  return fmt::format(
+      "a stride takes {:.2f} s of video, people's {} to {} s: is the frame rate right, or {} by "
+      "about {}? say --slow-motion {} (y in the window)",
+      period_s, shortest_s, longest_s, *factor > 1 ? "is it slow motion" : "does it play too fast,",
+      *factor, *factor);
+}
+
+std::string doubt_of_rates(double capture_rate_hz, double rate_hz) {
+  constexpr double kHighSpeed_hz = 100;
+  if (capture_rate_hz > 1.2 * rate_hz)
+    return fmt::format(
+        "the file says that the camera recorded {:.4g} frames a second, and plays {:.4g}: slow "
+        "motion by {:.3g}? say --slow-motion {:.3g}",
+        capture_rate_hz, rate_hz, capture_rate_hz / rate_hz, capture_rate_hz / rate_hz);
+  if (rate_hz >= kHighSpeed_hz)
+    return fmt::format(
+        "the video has {:.4g} frames a second and is taken for real time; if it plays in slow "
+        "motion, say --slow-motion",
+        rate_hz);
+  return {};
+}
+
+}  // namespace stride::tracking

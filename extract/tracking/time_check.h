@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace stride::tracking {
+
+/// By how much a clip plays too slowly (above 1) or too fast, if its stride takes longer or shorter
+/// than people's do: `shortest_s` to `longest_s`. In halves above 1, for a person to recognise the
+/// camera's. Nothing where the period is as people's.
+std::optional<double> likely_slow_motion(double period_s, double shortest_s = 0.4,
+                                         double longest_s = 1.8);
+
+/// The same as a sentence with the cure; empty where there is no doubt.
+std::string doubt_of_period(double period_s, double shortest_s = 0.4, double longest_s = 1.8);
+
+/// What a video's own rates say: `capture_rate_hz` of the camera (NaN: not said), `rate_hz` at
+/// which it plays. Empty if nothing is odd.
+std::string doubt_of_rates(double capture_rate_hz, double rate_hz);
+
+}  // namespace stride::tracking

@@ -1,0 +1,87 @@
+#include "extract/io/outputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
+
+namespace stride {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+TEST(FileKind, IsToldFromTheFirstBytes) {
+  EXPECT_EQ(kind_of_content(""), FileKind::empty);
+  EXPECT_EQ(kind_of_content("# stride trajectory 1\n"), FileKind::trajectory);
+  EXPECT_EQ(kind_of_content("# stride curve 1\n"), FileKind::table);
+  EXPECT_EQ(kind_of_content("{\n \"format\": \"stride keypoints\"}"), FileKind::keypoints);
+  EXPECT_EQ(kind_of_content("[1, {\"a\": 2}]"), FileKind::json);
+  EXPECT_EQ(kind_of_content("\0\0\0\x20"
+                            "ftypisom"sv),
+            FileKind::video);
+  EXPECT_EQ(kind_of_content("\x89HDF\r\n\x1a\n\0\0"sv), FileKind::hdf5);
+  EXPECT_EQ(kind_of_content("PK\3\4xl"), FileKind::zip);
+  EXPECT_EQ(kind_of_content("\xff\xfe"
+                            "f\0r\0"sv),
+            FileKind::utf16);
+  EXPECT_EQ(kind_of_content("<?xml?>\n<KinoveaVideoAnalysis>"), FileKind::kinovea_xml);
+  EXPECT_EQ(kind_of_content("frame;x\n1;2"), FileKind::text);
+  EXPECT_EQ(kind_of_content("a\0b"sv), FileKind::binary);
+}
+
+TEST(FileKind, OfOurOwnFilesIsTheirs) {
+  const std::filesystem::path videos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
+  EXPECT_EQ(kind_of(videos / "human.mp4"), FileKind::video);
+  EXPECT_EQ(kind_of(videos / "human.keypoints.json"), FileKind::keypoints);
+  EXPECT_EQ(kind_of(videos), FileKind::missing);
+  EXPECT_EQ(kind_of("/dev/null"), FileKind::missing);
+}
+
+class Outputs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_file_atomically(folder_ / "run.mp4", std::string("\0\0\0\x20"
+                                                           "ftypisom",
+                                                           12));
+    write_file_atomically(folder_ / "clicks.json", "{\"format\": \"stride keypoints\"}");
+    write_file_atomically(folder_ / "old.csv", "# stride trajectory 1\n");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Outputs, AreNeverInputsUnderWhateverName) {
+  const fs::path video = folder_ / "run.mp4";
+  fs::create_symlink(video, folder_ / "link.mp4");
+  fs::create_hard_link(video, folder_ / "hard.mp4");
+  for (const fs::path& name :
+       {video, folder_ / "./x/../run.mp4", folder_ / "link.mp4", folder_ / "hard.mp4"})
+    EXPECT_ERROR(check_outputs({video}, {{"--overlay", name, FileKind::video}}),
+                 "is an input too and would be overwritten");
+}
+
+TEST_F(Outputs, AreNotWrittenOverAFileAmongTheInputs) {
+  EXPECT_ERROR(check_outputs({folder_.path()}, {{"-o", folder_ / "old.csv", FileKind::trajectory}}),
+               "is an input too");
+  check_outputs({folder_.path()}, {{"-o", folder_ / "new.csv", FileKind::trajectory}});
+}
+
+TEST_F(Outputs, ReplaceOnlyFilesOfTheirKind) {
+  check_outputs({}, {{"-o", folder_ / "old.csv", FileKind::trajectory}});
+  EXPECT_ERROR(check_outputs({}, {{"-o", folder_ / "clicks.json", FileKind::trajectory}}),
+               "there is a file of clicks of that name, and a trajectory in pixels would replace");
+  EXPECT_ERROR(check_outputs({}, {{"-o", folder_.path(), FileKind::trajectory}}),
+               "is a folder: name a file in it");
+}
+
+TEST_F(Outputs, AreDifferentFiles) {
+  EXPECT_ERROR(check_outputs({}, {{"-o", folder_ / "a.csv", FileKind::trajectory},
+                                  {"--export", folder_ / "./a.csv", FileKind::points_csv}}),
+               "are one file");
+}
+
+}  // namespace
+}  // namespace stride
