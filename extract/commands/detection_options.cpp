@@ -35,8 +35,16 @@ void add_import_options(CLI::App& command, imports::ImportOptions& options) {
 }
 
 void add_pose_options(CLI::App& command, pose::PoseOptions& options) {
-  command.add_option("--pose", options.model,
-                     "points of a pose model of yours instead: an .onnx with a .toml beside it");
+  command
+      .add_option_function<std::string>(
+          "--pose",
+          [&options](const std::string& model) {
+            options.wanted = true;
+            if (!model.empty() && model != "true") options.model = model;
+          },
+          "the points of a pose network: of the installed one, corrected by clicks if there are "
+          "any, or of MODEL.tflite, or of an .onnx of yours with a .toml beside it")
+      ->expected(0, 1);
   command.add_option("--pose-config", options.sidecar,
                      "the model's .toml, if it has another name or place");
   command

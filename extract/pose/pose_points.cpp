@@ -9,6 +9,7 @@
 #include "extract/import/parsing/people.h"
 #include "extract/io/error.h"
 #include "extract/pose/network.h"
+#include "extract/pose/network_points.h"
 #include "extract/video/video.h"
 
 namespace stride::pose {
@@ -49,6 +50,12 @@ cv::Rect2d grown(const cv::Rect2d& box, double factor) {
 
 imports::Detections pose_points(const std::filesystem::path& video, const PoseOptions& pose,
                                 const imports::ImportOptions& options) {
+  if (!pose.is_users()) {
+    NetworkOptions network;
+    network.landmarks = pose.model;
+    network.person = options.person;
+    return network_points(video, network).detections;
+  }
   const std::filesystem::path sidecar_file =
       pose.sidecar.empty() ? std::filesystem::path(pose.model).replace_extension(".toml")
                            : pose.sidecar;

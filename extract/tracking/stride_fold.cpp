@@ -17,6 +17,10 @@ using Basis = Eigen::Matrix<double, 10, 1>;
 constexpr double kShortest_s = 0.4, kLongest_s = 1.7, kScanStep = 1.01;
 constexpr double kUsual_s = 0.75, kSpread = 0.35;  // of periods, log-normal
 constexpr int kReweightings = 4;
+/// Seen from the side both legs swing about the same place. A weight of this share of all points on
+/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
+/// one another, so that one is always in front, would fit as well.
+constexpr double kSidesAlike = 0.25;
 constexpr std::size_t kMostPeaks = 4;  // of periods that are alike
 
 /// Offsets of right and left, then cosine and sine of each harmonic.
@@ -31,19 +35,21 @@ Basis basis(double time_s, int side, double period_s) {
   return b;
 }
 
-/// Robust least squares of several signals over the same rows, by Cauchy weights.
+/// Robust least squares of several signals over the same rows, by Cauchy weights. `sides_alike`
+/// weighs the squared difference of the first two coefficients.
 struct Fit {
   Eigen::MatrixXd coefficients;        // a column a signal
   double spread = 0;                   // median distance
   double negative_log_likelihood = 0;  // −log likelihood without constants
 };
 Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
-        double least_spread) {
+        double least_spread, double sides_alike = 0) {
   Fit fit;
   Eigen::VectorXd robust = weights, distance;
   for (int round = 0; round < kReweightings; ++round) {
     Eigen::MatrixXd normal = rows.transpose() * robust.asDiagonal() * rows;
     normal.diagonal().array() += 1e-3;
+    normal.topLeftCorner<2, 2>() += sides_alike * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
     fit.coefficients = normal.llt().solve(rows.transpose() * robust.asDiagonal() * signals);
     distance = (signals - rows * fit.coefficients).rowwise().norm();
     fit.spread = std::max(least_spread, median({distance.begin(), distance.end()}));
@@ -179,7 +185,7 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
     double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
     if (n > 0) {
-      const Fit joint_fit = fit(rows, signals, row_weights, 0.5);
+      const Fit joint_fit = fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
       coefficients = {joint_fit.coefficients.col(0), joint_fit.coefficients.col(1)};
       spread_px = joint_fit.spread;
       result.negative_log_likelihood += joint_fit.negative_log_likelihood;

@@ -50,7 +50,8 @@ void add_convert_command(CLI::App& app) {
   pipeline::ClipOptions& clip = options.clip;
   convert
       ->add_option("inputs", command->inputs,
-                   "videos (NAME.keypoints.json beside them), NAME.trajectory.csv, "
+                   "videos (NAME.keypoints.json beside them, or the pose network finds the "
+                   "joints), NAME.trajectory.csv, "
                    "NAME.calibrated.csv, or folders of videos")
       ->required();
   convert->add_option("-o,--out", options.out, "folder for the results")->required();
@@ -72,6 +73,16 @@ void add_convert_command(CLI::App& app) {
   convert->add_option("--weight", clip.keyframes.weight, "of the potential");
   convert->add_flag("--keep-asymmetry", command->asymmetric,
                     "do not make the legs mirror images of one another");
+  convert
+      ->add_option_function<std::string>(
+          "--pose",
+          [&options](const std::string& landmarks) {
+            options.network = true;
+            if (!landmarks.empty() && landmarks != "true") options.landmarks = landmarks;
+          },
+          "the pose network also for videos with clicks, which then correct it; MODEL.tflite: "
+          "another one than the installed")
+      ->expected(0, 1);
   convert->add_option("--threads", options.threads, "clips at a time (default: processors)");
   convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");
   convert->add_flag("--again", options.again, "convert also what has not changed");
