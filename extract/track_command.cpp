@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "extract/annotation/points_of_video.h"
 #include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_of_video.h"
 #include "extract/annotation/points_on_video.h"
 #include "extract/commands.h"
 #include "extract/commands/detection_options.h"
@@ -88,7 +88,7 @@ tracking::LabelledClip detected(const Request& request) {
   fmt::print(stderr, "{}: {} frames of {}, person {} of {}{}\n",
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
-              detections.people.size(), others(detections));
+             detections.people.size(), others(detections));
   tracking::LabelledClip labelled = tracking::points_on(
       request.video, detections, {request.slow_motion.value_or(1), request.repair_legs, options});
   labelled.points = "import";

@@ -1,4 +1,5 @@
-// The house: which room may include from which, how many units a room has, and no knots.
+// The layering: which room may include from which, how many units a room has, and no include cycles
+// of more than two units.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,11 +117,13 @@ TEST(Rooms, AreAllInThePipeline) {
 }
 
 TEST(Rooms, NoArrowRunsBack) {
-  for (const auto& [name, unit] : units())
+  const auto all = units();
+  for (const auto& [name, unit] : all)
     for (const std::string& included : unit.includes)
-      EXPECT_LE(order(room_of(included)), order(unit.room))
-          << name << " includes " << included << ": " << unit.room << " comes before "
-          << room_of(included);
+      if (all.contains(included))
+        EXPECT_LE(order(room_of(included)), order(unit.room))
+            << name << " includes " << included << ": " << unit.room << " comes before "
+            << room_of(included);
 }
 
 TEST(Rooms, HaveAtMostADozenUnits) {

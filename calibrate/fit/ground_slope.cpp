@@ -71,13 +71,12 @@ Slope slope_of(const std::vector<Vector2d>& path, const std::vector<double>& tim
     solution = normal.ldlt().solve(rows.transpose() * weights.asDiagonal() * y);
     return (y - rows * solution).cwiseAbs();
   };
-  const double scale = robust_fit(Eigen::VectorXd::Ones(n),
-                                  {.rounds = 8,
-                                   .spread_per_median = kSigmaPerMedian,
-                                   .least_spread = 0.02,
-                                   .width = 2.5},
-                                  weighted_fit)
-                           .spread;
+  const double scale =
+      robust_fit(
+          Eigen::VectorXd::Ones(n),
+          {.rounds = 8, .spread_per_median = kSigmaPerMedian, .least_spread = 0.02, .width = 2.5},
+          weighted_fit)
+          .spread;
   const double variance = normal.inverse()(0, 0) * scale * scale * kAlike;
   return {std::atan(solution[0]), std::sqrt(std::max(variance, 0.0))};
 }

@@ -9,8 +9,8 @@
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
-#include "extract/io/outputs.h"
 #include "extract/io/option_range.h"
+#include "extract/io/outputs.h"
 
 namespace stride::imports {
 namespace fs = std::filesystem;

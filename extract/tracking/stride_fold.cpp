@@ -27,16 +27,16 @@ Basis basis(double time_s, int side, double period_s) {
   return b;
 }
 
-      const RobustLinearFit joint_fit =
-          robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
+const RobustLinearFit joint_fit =
+    robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike* row_weights.sum());
 
 /// Whether another period can look the same at these times: four of them in the shortest of a
 /// runner tell.
 bool has_aliases(const std::vector<double>& times_s) {
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps_s.push_back(times_s[i] - times_s[i - 1]);
-      const RobustLinearFit joint_fit =
-          robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
+  const RobustLinearFit joint_fit =
+      robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
       row_weights[i] = weights[static_cast<std::size_t>(i)];
     }
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
-    double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
+    double spread_px = std::numeric_limits<double>::infinity();  // no information if unseen
     if (n > 0) {
       const RobustLinearFit joint_fit =
           robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());

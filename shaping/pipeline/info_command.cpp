@@ -155,7 +155,8 @@ std::string about_video(const fs::path& file) {
       varies ? fmt::format("; the rate varies: {:.1f} to {:.1f} ms a frame", 1000 * shortest_s,
                            1000 * longest_s)
              : "");
-  if (const std::string doubt = tracking::doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
+  if (const std::string doubt =
+          tracking::doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
       !doubt.empty())
     text += doubt + "\n";
   if (!times.shortfall.empty()) text += times.shortfall + "\n";

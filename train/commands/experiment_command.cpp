@@ -7,8 +7,8 @@
 
 #include "extract/io/error.h"
 #include "extract/parallel/ranks.h"
+#include "train/commands/interrupt.h"
 #include "train/experiments/experiment.h"
-#include "train/training/interrupt.h"
 
 namespace stride {
 namespace {
@@ -32,7 +32,7 @@ std::string command_of(const Request& request) {
   return command;
 }
 
-/// `potential` instead of the file that the first shaped arm has, wherever that is used.
+/// Replaces the potential of the first shaped arm by `potential` in all arms that use it.
 void replace_potential(const std::filesystem::path& potential,
                        std::vector<experiments::ExperimentArm>& arms) {
   const auto shaped = std::ranges::find_if(
@@ -61,8 +61,7 @@ void experiment_as_requested(const Request& request) {
     options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
   if (options.report.empty()) options.report = options.runs / "report";
   options.command = command_of(request);
-  const bool finished =
-      experiments::run_experiment(options, training::stopped_by({SIGINT, SIGTERM}), stderr);
+  const bool finished = experiments::run_experiment(options, stopped_by({SIGINT, SIGTERM}), stderr);
   if (!parallel::Ranks::world().first()) return;
   if (!finished)
     fmt::print("stopped and saved; give the same command again to continue\n");

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "train/commands/interrupt.h"
 #include "train/experiments/plot.h"
-#include "train/training/interrupt.h"
 
 namespace stride {
 
@@ -32,7 +32,7 @@ void add_plot_command(CLI::App& app) {
     const std::vector<experiments::Arm> arms =
         experiments::arms_of({request->runs.begin(), request->runs.end()});
     if (request->watch)
-      return experiments::watch(arms, request->options, training::stopped_by({SIGINT}), stderr);
+      return experiments::watch(arms, request->options, stopped_by({SIGINT}), stderr);
     experiments::plot(arms, request->options);
     fmt::print("{0}.svg\n{0}.png\n", request->options.out.string());
   });

@@ -6,8 +6,8 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/parallel/ranks.h"
+#include "train/commands/interrupt.h"
 #include "train/ppo/train_run.h"
-#include "train/training/interrupt.h"
 #include "train/training/runner_factory.h"
 
 namespace stride {
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the command line says.
+/// The command line's options.
 struct Request {
   std::string potential, reference, out, resume, preset, config;
   std::vector<std::string> assignments;
@@ -51,7 +51,7 @@ fs::path begin(const Request& request) {
   return request.out;
 }
 
-/// A run that exists: only its length may be changed.
+/// An existing run; only its length may be changed.
 fs::path resume(const Request& request) {
   require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
               !request.baseline && request.config.empty() && request.assignments.empty() &&
@@ -72,7 +72,7 @@ void train_as_requested(const Request& request) {
   fs::path run = request.resume.empty() ? request.out : request.resume;
   if (ranks.first()) run = request.resume.empty() ? begin(request) : resume(request);
   ranks.wait_for_all();  // for the folder
-  const std::atomic<bool>& interrupted = training::stopped_by({SIGINT, SIGTERM});
+  const std::atomic<bool>& interrupted = stopped_by({SIGINT, SIGTERM});
   const training::TrainOptions options = training::load_run_options(run);
   const training::EnvironmentFactory runners =
       training::make_runners(options.environment, training::load_run_demonstration(options, run));

@@ -15,19 +15,21 @@ constexpr std::uint64_t kStream = 6;
 void LatePositions::start(std::uint64_t seed) {
   random_.seed(stream_seed(seed, kStream));
   remaining_ = 0;
+  late_ = false;
   first_ = true;
   last_.resize(std::size(kPlaces));
 }
 
 void LatePositions::apply(Eigen::VectorXd& observation) {
-  if (!first_ && remaining_ == 0 && uniform(random_) < kBegin)
+  // After a cluster one row is on time, so that none is older than kLongest steps.
+  if (!first_ && !late_ && uniform(random_) < kBegin)
     remaining_ = 1 + static_cast<int>(uniform_index(random_, kLongest));
-  const bool late = remaining_ > 0;
-  if (late) --remaining_;
+  late_ = remaining_ > 0;
+  if (late_) --remaining_;
   for (std::size_t i = 0; i < std::size(kPlaces); ++i) {
     double& now = observation[kPlaces[i]];
     double& before = last_[static_cast<Eigen::Index>(i)];
-    if (late)
+    if (late_)
       now = before;
     else
       before = now;

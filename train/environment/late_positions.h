@@ -23,6 +23,7 @@ class LatePositions {
  private:
   std::mt19937_64 random_;
   int remaining_ = 0;     // steps of the cluster
+  bool late_ = false;     // the last row was
   bool first_ = true;     // there is no earlier moment
   Eigen::VectorXd last_;  // positions as observed before
 };

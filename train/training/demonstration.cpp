@@ -34,8 +34,8 @@ void require_a_run(const Potential& p, const std::string& file) {
 }
 
 void require_model(const Potential& p, const std::string& file, const std::string& model_file) {
-  const osim::Model model = osim::load_osim(model_file.empty() ? osim::default_model_file()
-                                                               : fs::path(model_file));
+  const osim::Model model =
+      osim::load_osim(model_file.empty() ? osim::default_model_file() : fs::path(model_file));
   require(p.model.empty() || p.model == model.name,
           "{}: was made on the model {}, the run trains {}; convert the clip again with --model",
           file, p.model, model.name);

@@ -71,7 +71,8 @@ TEST(PointsOnVideo, ThatFitAreTakenWithoutAWord) {
 }
 
 TEST(PointsOnVideo, OfADeclaredSizeAreScaled) {
-  imports::Detections twice = moved([](const Vector2d& p) -> Vector2d { return 2 * p.array() + 0.5; });
+  imports::Detections twice =
+      moved([](const Vector2d& p) -> Vector2d { return 2 * p.array() + 0.5; });
   for (imports::ImportedFrame& frame : twice.frames) frame.width_px = 640, frame.height_px = 360;
   const Told declared = told(twice);
   EXPECT_THAT(declared.warnings, HasSubstr("640 x 360"));

@@ -62,7 +62,8 @@ TEST_F(Robust, FeetAreWhereTheEnginePutsThemHoweverLateTheyAreObserved) {
     for (const auto& [name, origin] :
          {std::pair{"ankle_r", "talus_r"}, std::pair{"ankle_l", "talus_l"},
           std::pair{"toe_r", "toes_r"}, std::pair{"toe_l", "toes_l"}}) {
-      const simulation::PlanarVector at = body[static_cast<std::size_t>(model_.body(origin))].position;
+      const simulation::PlanarVector at =
+          body[static_cast<std::size_t>(model_.body(origin))].position;
       EXPECT_NEAR(of(from_exact, std::string(name) + "_x"), at.x - x, 1e-9);
       EXPECT_NEAR(of(from_exact, std::string(name) + "_y"), at.y, 1e-9);
     }

@@ -74,7 +74,7 @@ TEST(Options, PresetsAreValidAndAnUnknownOneIsNamed) {
     options.check();
   }
   EXPECT_ERROR(training::preset_file("fast"),
-               "preset 'fast': must be one of demo, paper, shaping, stride");
+               "preset 'fast': must be one of competition, demo, paper, ppo, shaping, stride");
 }
 
 namespace fs = std::filesystem;
