@@ -66,7 +66,7 @@ Keypoints fresh_keypoints(const fs::path& video, const video::VideoInfo& info) {
 /// for undo.
 void import_clicks(const Request& request, video::FrameStore& frames,
                    annotation::AnnotationJournal& journal) {
-  const bool by_model = !request.pose.model.empty();
+  const bool by_model = request.pose.wanted;
   const fs::path& from = by_model ? request.pose.model : request.import_from;
   require(!by_model || request.import_from.empty(), "--import {} and --pose {}: give one of them",
           request.import_from.string(), from.string());
@@ -78,7 +78,10 @@ void import_clicks(const Request& request, video::FrameStore& frames,
   frames.wait();
   const tracking::LabelledClip labelled =
       tracking::points_on(request.video, detections, {1, request.repair_legs, request.import});
-  annotation::Change change{fmt::format("points of {}", from.filename().string()), {}, {}};
+  annotation::Change change{
+      fmt::format("points of {}", from.empty() ? "the pose network" : from.filename().string()),
+      {},
+      {}};
   for (const TrajectoryFrame& imported : labelled.marks.frames) {
     const int number = imported.frame;
     if (number >= frames.count() || journal.document().keypoints().frames.contains(number))
@@ -219,8 +222,7 @@ void run(Request request) {
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
-  if (!request.import_from.empty() || !request.pose.model.empty())
-    import_clicks(request, frames, journal);
+  if (!request.import_from.empty() || request.pose.wanted) import_clicks(request, frames, journal);
   annotation::BackgroundTracker tracker(
       [&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
         return annotation::predict(keypoints, frames, given_up);

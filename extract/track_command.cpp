@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 
-#include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_of_video.h"
 #include "extract/annotation/points_on_video.h"
 #include "extract/commands.h"
 #include "extract/import/export.h"
@@ -43,8 +44,20 @@ void show_progress(int frame, int last) {
     fmt::print(stderr, "frame {} of {}\n", frame, last);
 }
 
+/// The same for the network, with the time that it still needs.
+struct NetworkProgress {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+  void operator()(int done, int of) const {
+    if (!::isatty(STDERR_FILENO)) return;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    fmt::print(stderr, "\rthe pose network: frame {} of {}, about {:.0f} s left {}", done, of,
+               spent.count() * (of - done) / done, done == of ? "\n" : "");
+  }
+};
+
 bool is_detected(const Request& request) {
-  return !request.import_from.empty() || !request.pose.model.empty();
+  return !request.import_from.empty() || request.pose.is_users();
 }
 
 /// Who else is in the file.
@@ -62,7 +75,7 @@ std::string others(const imports::Detections& detections) {
 
 /// The points of another program or of a pose model on the frames of the video.
 tracking::LabelledClip detected(const Request& request) {
-  require(request.import_from.empty() || request.pose.model.empty(),
+  require(request.import_from.empty() || !request.pose.wanted,
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
   imports::ImportOptions options = request.import;
@@ -74,14 +87,23 @@ tracking::LabelledClip detected(const Request& request) {
              (request.pose.model.empty() ? request.import_from : request.pose.model).string(),
              detections.frames.size(), detections.format, detections.person,
              detections.people.size(), others(detections));
-  return tracking::points_on(request.video, detections,
-                             {request.slow_motion.value_or(1), request.repair_legs, options});
+  tracking::LabelledClip labelled = tracking::points_on(
+      request.video, detections, {request.slow_motion.value_or(1), request.repair_legs, options});
+  labelled.points = "import";
+  return labelled;
 }
 
-tracking::LabelledClip clicked(const Request& request) {
-  const fs::path file =
-      request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  return tracking::clicks_on(request.video, file, request.slow_motion.value_or(0));
+/// Clicks or, where there are none, the points of the pose network.
+tracking::LabelledClip clicked_or_seen(const Request& request) {
+  tracking::PointsOptions options;
+  options.keypoints = request.keypoints;
+  options.slow_motion = request.slow_motion.value_or(0);
+  options.network = request.pose.wanted;
+  options.landmarks = request.pose.model;
+  options.person = request.import.person;
+  options.repair_legs = request.repair_legs;
+  options.progress = NetworkProgress();
+  return tracking::points_of_video(request.video, options);
 }
 
 void report(const tracking::Tracked& tracked) {
@@ -140,7 +162,7 @@ void run(Request request) {
     return;
   }
   const tracking::LabelledClip labelled =
-      is_detected(request) ? detected(request) : clicked(request);
+      is_detected(request) ? detected(request) : clicked_or_seen(request);
   const std::size_t frames = labelled.marks.frames.size();
   require(frames != 1, "one frame is marked: that tells no motion; mark {} or more", kFewestFrames);
   if (frames < kFewestFrames)
@@ -182,10 +204,11 @@ void run(Request request) {
 void add_track_command(CLI::App& app) {
   const auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand(
-      "track", "propagate clicks, or a pose model's points, through every frame of a video");
+      "track", "propagate clicks, or a pose network's points, through every frame of a video");
   command.add_option("VIDEO", request->video, "the video")->required();
   command.add_option("--keypoints", request->keypoints,
-                     "clicks (default: NAME.keypoints.json beside the video)");
+                     "clicks (default: NAME.keypoints.json beside the video; without it the pose "
+                     "network finds the joints)");
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
   imports::add_import_options(command, request->import);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// this list. `commands` are the files of the command line, which know everything in their folder.
 const std::vector<std::string> kRooms{
     "extract/io", "extract/skeleton", "extract/video", "extract/import/parsing",
-    "extract/import/formats", "extract/import", "extract/pose", "extract/tracking/gaussian_process",
+    "extract/import/formats", "extract/import", "extract/pose/tflite", "extract/pose", "extract/tracking/gaussian_process",
     "extract/tracking", "extract/annotation", "extract/annotation/session", "extract/commands",
     //
     "calibrate/osim", "calibrate/runner", "calibrate/fit", "calibrate/gait", "calibrate",

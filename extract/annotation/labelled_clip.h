@@ -9,7 +9,8 @@ namespace stride::tracking {
 /// What is marked on a video.
 struct LabelledClip {
   Trajectory marks;
-  double slow_motion = 1;  // seconds of video a second of the runner
+  double slow_motion = 1;         // seconds of video a second of the runner
+  std::string points = "clicks";  // whose they are: "clicks", "network", "mixed", "import"
 };
 
 /// The clicks on a video, those that a killed `stride annotate` left in its journal included.

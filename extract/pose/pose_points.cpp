@@ -10,6 +10,7 @@
 #include "extract/import/parsing/people.h"
 #include "extract/io/error.h"
 #include "extract/pose/network.h"
+#include "extract/pose/network_points.h"
 #include "extract/video/video.h"
 
 namespace stride::pose {
@@ -50,6 +51,12 @@ cv::Rect2d grown(const cv::Rect2d& box, double factor) {
 
 imports::Detections pose_points(const std::filesystem::path& video, const PoseOptions& pose,
                                 const imports::ImportOptions& options) {
+  if (!pose.is_users()) {
+    NetworkOptions network;
+    network.landmarks = pose.model;
+    network.person = options.person;
+    return network_points(video, network).detections;
+  }
   const std::filesystem::path sidecar_file =
       pose.sidecar.empty() ? std::filesystem::path(pose.model).replace_extension(".toml")
                            : pose.sidecar;
@@ -86,8 +93,16 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
 }
 
 void add_pose_options(CLI::App& command, PoseOptions& options) {
-  command.add_option("--pose", options.model,
-                     "points of a pose model of yours instead: an .onnx with a .toml beside it");
+  command
+      .add_option_function<std::string>(
+          "--pose",
+          [&options](const std::string& model) {
+            options.wanted = true;
+            if (!model.empty() && model != "true") options.model = model;
+          },
+          "the points of a pose network: of the installed one, corrected by clicks if there are "
+          "any, or of MODEL.tflite, or of an .onnx of yours with a .toml beside it")
+      ->expected(0, 1);
   command.add_option("--pose-config", options.sidecar,
                      "the model's .toml, if it has another name or place");
   command

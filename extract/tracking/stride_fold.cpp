@@ -13,6 +13,10 @@ namespace {
 using Eigen::Vector2d;
 using Basis = Eigen::Matrix<double, 10, 1>;
 
+/// Seen from the side both legs swing about the same place. A weight of this share of all points on
+/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
+/// one another, so that one is always in front, would fit as well.
+constexpr double kSidesAlike = 0.25;
 constexpr int kMostAlike = 4;  // periods that the spacing of the frames makes alike
 
 /// Offsets of right and left, then cosine and sine of each harmonic.
@@ -76,7 +80,8 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
     double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
     if (n > 0) {
-      const RobustFit joint_fit = robust_fit(rows, signals, row_weights, 0.5);
+      const RobustFit joint_fit =
+          robust_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
       coefficients = {joint_fit.coefficients.col(0), joint_fit.coefficients.col(1)};
       spread_px = joint_fit.spread;
       result.negative_log_likelihood += joint_fit.negative_log_likelihood;

@@ -5,17 +5,12 @@
 #include <utility>
 
 namespace stride::video {
-namespace {
 
-constexpr double kMostBytes = 800e6;  // of images as they are
-
-}  // namespace
-
-FrameStore::FrameStore(const std::filesystem::path& file) {
+FrameStore::FrameStore(const std::filesystem::path& file, double most_bytes) {
   Video video(file);
   info_ = video.info();
   compressed_ = info_.announced_frames <= 0 ||
-                3.0 * info_.width_px * info_.height_px * info_.announced_frames > kMostBytes;
+                3.0 * info_.width_px * info_.height_px * info_.announced_frames > most_bytes;
   thread_ = std::thread([this, opened = std::move(video)]() mutable { decode(std::move(opened)); });
 }
 

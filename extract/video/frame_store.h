@@ -17,7 +17,8 @@ namespace stride::video {
 class FrameStore {
  public:
   /// Throws Error, as Video does. `info()` is there at once, the frames follow.
-  explicit FrameStore(const std::filesystem::path& video);
+  /// `most_bytes`: of images that are held as they are.
+  explicit FrameStore(const std::filesystem::path& video, double most_bytes = 800e6);
   ~FrameStore();
   FrameStore(const FrameStore&) = delete;
   FrameStore& operator=(const FrameStore&) = delete;

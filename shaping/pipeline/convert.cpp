@@ -14,7 +14,7 @@
 #include "calibrate/report/report.h"
 #include "calibrate/report/report_frames.h"
 #include "extract/annotation/journal.h"
-#include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_of_video.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
@@ -45,6 +45,13 @@ std::string left_out(const fs::path& file) {
   return {};
 }
 
+/// source.points of a potential: "clicks", "network" or "mixed".
+void say_whose_points(const fs::path& potential, const std::string& points) {
+  auto json = nlohmann::ordered_json::parse(read_file(potential));
+  json["source"]["points"] = points;
+  write_file_atomically(potential, json.dump(1) + "\n");
+}
+
 /// One input on its way through the pipeline.
 class Clip {
  public:
@@ -63,6 +70,7 @@ class Clip {
     if (!options_.again && is_done(stamp)) return result_;
     const CalibratedTrajectory run = calibrated();
     save(make_potential(run, clip_.keyframes, input_.string()), out(".potential.json"));
+    if (!result_.points.empty()) say_whose_points(out(".potential.json"), result_.points);
     write_stamp(stamp);
     return result_;
   }
@@ -104,7 +112,9 @@ class Clip {
     if (!clip_.direction.empty()) trajectory.direction = clip_.direction;
     result_.frames = static_cast<int>(trajectory.frames.size());
     const Calibration calibration = calibrate(trajectory, model_, fit::fit_options(clip_.size));
-    write_file_atomically(out(".report.txt"), report::report_text(trajectory, model_, calibration));
+    std::string report = report::report_text(trajectory, model_, calibration);
+    if (!result_.points.empty()) report += fmt::format("points    {}\n", result_.points);
+    write_file_atomically(out(".report.txt"), report);
     if (calibration.fit.ok && options_.pictures)
       report::draw_report(
           trajectory, model_, calibration,
@@ -118,8 +128,12 @@ class Clip {
   }
 
   Trajectory tracked() {
-    const tracking::LabelledClip labelled =
-        tracking::clicks_on(input_, keypoints_file_of(input_), clip_.slow_motion);
+    tracking::PointsOptions points;
+    points.slow_motion = clip_.slow_motion;
+    points.network = options_.network;
+    points.landmarks = options_.landmarks;
+    const tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
+    result_.points = labelled.points;
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
     save(trajectory, out(kTrajectory));
     return trajectory;
@@ -144,7 +158,7 @@ class Clip {
                     clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
                     clip_.direction, clip_.slow_motion, clip_.force, k.count, k.foot, k.symmetric,
                     name(k.function), name(k.index), k.epsilon_m);
-    all += fmt::format(" {}", k.weight);
+    all += fmt::format(" {} {}", k.weight, options_.network);
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));
     return all;
@@ -167,6 +181,7 @@ class Clip {
     result_.mm_per_px = number("mm_per_px");
     result_.rms_px = number("rms_px");
     result_.rms_cm = number("rms_cm");
+    result_.points = json.value("points", "");
     result_.verdict = json.value("verdict", "");
     return true;
   }
@@ -180,6 +195,7 @@ class Clip {
                                       {"mm_per_px", result_.mm_per_px},
                                       {"rms_px", result_.rms_px},
                                       {"rms_cm", result_.rms_cm},
+                                      {"points", result_.points},
                                       {"verdict", result_.verdict}};
     write_file_atomically(out(".converted.json"), json.dump(1) + "\n");
   }
@@ -272,18 +288,19 @@ std::vector<Converted> convert(const std::vector<fs::path>& inputs, const Conver
 std::string table_of(const std::vector<Converted>& results) {
   std::size_t width = 4;
   for (const Converted& row : results) width = std::max(width, row.name.size());
-  std::string text =
-      fmt::format("{:<{}}  frames  strides  period s  speed m/s  mm/px  rms px  rms cm  verdict\n",
-                  "clip", width);
+  std::string text = fmt::format(
+      "{:<{}}  frames  strides  period s  speed m/s  mm/px  rms px  rms cm  points   verdict\n",
+      "clip", width);
   for (const Converted& row : results)
-    text += row.failed ? fmt::format("{:<{}}  {:6}  failed: {}\n", row.name, width, row.frames,
-                                     row.verdict)
-                       : fmt::format(
-                             "{:<{}}  {:6}  {:7.2f}  {:8.4f}  {:9.2f}  {:5.2f}  {:6.2f}  {:6.2f}  "
-                             "{}{}\n",
-                             row.name, width, row.frames, row.strides, row.period_s, row.speed_m_s,
-                             row.mm_per_px, row.rms_px, row.rms_cm, row.verdict,
-                             row.unchanged ? " (unchanged)" : "");
+    text +=
+        row.failed
+            ? fmt::format("{:<{}}  {:6}  failed: {}\n", row.name, width, row.frames, row.verdict)
+            : fmt::format(
+                  "{:<{}}  {:6}  {:7.2f}  {:8.4f}  {:9.2f}  {:5.2f}  {:6.2f}  {:6.2f}  "
+                  "{:<7}  {}{}\n",
+                  row.name, width, row.frames, row.strides, row.period_s, row.speed_m_s,
+                  row.mm_per_px, row.rms_px, row.rms_cm, row.points.empty() ? "-" : row.points,
+                  row.verdict, row.unchanged ? " (unchanged)" : "");
   return text;
 }
 

@@ -26,6 +26,8 @@ struct ConvertOptions {
   ClipOptions clip;                            // of every clip
   std::map<std::string, ClipOptions> by_clip;  // instead, for the clip of that NAME
   int threads = 0;                             // 0: one for each processor
+  bool network = false;  // the pose network also where there are clicks, as PointsOptions
+  std::filesystem::path landmarks;  // its .tflite; empty: the installed one
   bool pictures = true;
   bool again = false;                                     // also what has not changed
   std::function<void(const std::string& line)> progress;  // one call at a time
@@ -36,15 +38,16 @@ struct Converted {
   std::string name;
   bool failed = false, unchanged = false;
   std::string verdict;  // or the error
+  std::string points;   // "clicks", "network" or "mixed"; empty: not known
   int frames = 0;
   double strides = 0, period_s = 0, speed_m_s = 0, mm_per_px = 0, rms_px = 0, rms_cm = 0;
 };
 
-/// The left half of the pipeline for each input: a video with NAME.keypoints.json beside it, a
-/// NAME.trajectory.csv, or a NAME.calibrated.csv (as an agent's own run). Writes, into `out`,
-/// NAME.trajectory.csv, NAME.calibrated.csv, NAME.report.txt, NAME.report.svg and
-/// NAME.potential.json; inputs that have not changed since are left alone. A failure of one is a
-/// line of its own and stops no other. Results in the order of the inputs.
+/// The left half of the pipeline for each input: a video with NAME.keypoints.json beside it or
+/// followed by the pose network, a NAME.trajectory.csv, or a NAME.calibrated.csv (as an agent's own
+/// run). Writes, into `out`, NAME.trajectory.csv, NAME.calibrated.csv, NAME.report.txt,
+/// NAME.report.svg and NAME.potential.json; inputs that have not changed since are left alone. A
+/// failure of one is a line of its own and stops no other. Results in the order of the inputs.
 std::vector<Converted> convert(const std::vector<std::filesystem::path>& inputs,
                                const ConvertOptions& options);
 

@@ -51,7 +51,8 @@ void add_convert_command(CLI::App& app) {
   pipeline::ClipOptions& clip = options.clip;
   convert
       ->add_option("inputs", command->inputs,
-                   "videos (NAME.keypoints.json beside them), NAME.trajectory.csv, "
+                   "videos (NAME.keypoints.json beside them, or the pose network finds the "
+                   "joints), NAME.trajectory.csv, "
                    "NAME.calibrated.csv, or folders of videos")
       ->required();
   convert->add_option("-o,--out", options.out, "folder for the results")->required();
@@ -77,6 +78,16 @@ void add_convert_command(CLI::App& app) {
       ->check(in_range(1e-9, 1e9));
   convert->add_flag("--keep-asymmetry", command->asymmetric,
                     "do not make the legs mirror images of one another");
+  convert
+      ->add_option_function<std::string>(
+          "--pose",
+          [&options](const std::string& landmarks) {
+            options.network = true;
+            if (!landmarks.empty() && landmarks != "true") options.landmarks = landmarks;
+          },
+          "the pose network also for videos with clicks, which then correct it; MODEL.tflite: "
+          "another one than the installed")
+      ->expected(0, 1);
   convert->add_option("--threads", options.threads, "clips at a time (default: processors)")
       ->check(in_range(1, 1024));
   convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");

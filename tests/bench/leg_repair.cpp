@@ -32,14 +32,15 @@ void print_share(const char* what, Parts parts, std::array<const char*, 3> clips
     all_right += repaired(spoiled(truth, seed));
     all_frames += static_cast<int>(truth.frames.size());
   }
-  fmt::print("{}: {} cases, {:.2f} % of {} frames right\n", what, kCases,
-             100.0 * all_right / all_frames, all_frames);
+  fmt::print("| {} | {} | {} | {:.2f} % |\n", what, kCases, all_frames,
+             100.0 * all_right / all_frames);
 }
 
 }  // namespace
 
 int main() {
   constexpr std::array at_30{"human", "game", "left"}, at_24{"cartoon", "small", "cartoon"};
+  fmt::print("| seen beside the pelvis | cases | frames | right |\n|---|---|---|---|\n");
   print_share("hips, knees, ankles, toes at 30 Hz", Parts::all, at_30, 1);
   print_share("knees, ankles, toes at 30 Hz", Parts::without_hips, at_30, 1);
   print_share("knees, ankles at 30 Hz", Parts::knees_and_ankles, at_30, 1);

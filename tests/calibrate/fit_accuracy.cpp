@@ -8,6 +8,7 @@
 
 #include "extract/annotation/labelled_clip.h"
 #include "extract/io/error.h"
+#include "extract/pose/network_points.h"
 #include "tests/calibrate/rendered.h"
 #include "videos/truth.h"
 
@@ -29,6 +30,16 @@ Trajectory tracked(const videos::Clip& clip, unsigned seed) {
   clicked.click_seed = seed;
   const Keypoints clicks = videos::clicks(clicked);
   return tracking::track(video, {tracking::marks_of(clicks), clicks.slow_motion}).trajectory;
+}
+
+/// The shipped video as the pose network sees it, without a click.
+Trajectory seen_by_network(const videos::Clip& clip) {
+  const std::filesystem::path video =
+      std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / (clip.name + ".mp4");
+  const pose::NetworkPoints seen = pose::network_points(video);
+  return tracking::track(video, tracking::points_on(video, seen.detections,
+                                                    video::video_times(video, 1), 1, true))
+      .trajectory;
 }
 
 /// Mean, and greatest size, of a number of every fit.
@@ -56,11 +67,12 @@ void measure(const Options& options, const std::string& name, const SagittalMode
   double worst_m = 0;
   for (unsigned seed = options.first; seed < options.first + options.seeds; ++seed) {
     videos::Clip clip = videos::clip(name);
-    if (options.from != "video") clip.seed = 1000 + seed;
+    if (options.from != "video" && options.from != "network") clip.seed = 1000 + seed;
     if (options.vary) clip = varied(clip, seed);
     const Trajectory trajectory =
-        options.from == "video"
-            ? tracked(clip, seed)
+        options.from == "video" ? tracked(clip, seed)
+        : options.from == "network"
+            ? seen_by_network(clip)
             : observed(clip, {options.from == "frames", clip.click_sd_px, seed});
     fit::FitOptions fit;
     if (options.known_leg) fit.leg_m = known_leg(clip, seed);
@@ -98,8 +110,8 @@ int main(int argc, char** argv) try {
   app.add_option("clips", options.clips, "clips of videos/")->capture_default_str();
   app.add_option("--from", options.from,
                  "clicks: eight frames a stride; frames: every frame, as noisy; video: the shipped "
-                 "video tracked from other clicks")
-      ->check(CLI::IsMember({"clicks", "frames", "video"}));
+                 "video tracked from other clicks; network: from none (--seeds 1)")
+      ->check(CLI::IsMember({"clicks", "frames", "video", "network"}));
   app.add_option("--seeds", options.seeds, "how many of each clip");
   app.add_option("--first", options.first, "the first seed");
   app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");

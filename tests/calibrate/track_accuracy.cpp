@@ -1,4 +1,4 @@
-// Accuracy of tracking against the truth of clips: the table of extract/README.md.
+// Accuracy of tracking against the truth of clips: the table of tests/bench/BENCHMARK.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +21,8 @@ fs::path truth_of(const fs::path& video) {
   throw Error(fmt::format("{}: no NAME.truth.csv beside it", video.string()));
 }
 
+/// A row for each noise of the clicks: spline → tracked → tracked again with the fit as prior, px
+/// rms.
 void measure(const std::string& clip, tracking::ScoreOptions options, const SagittalModel& model) {
   const fs::path video = clip.find('/') == std::string::npos
                              ? fs::path(STRIDE_SOURCE_DIR "/videos") / (clip + ".mp4")
@@ -30,12 +32,14 @@ void measure(const std::string& clip, tracking::ScoreOptions options, const Sagi
     if (!result.fit.ok) return std::nullopt;
     return fitted_px(tracked, model, result);
   };
-  for (const tracking::TrackScore& s : tracking::score_tracking(video, truth_of(video), options))
-    fmt::print(
-        "{:<24} {} {:3.1f}  spline {:5.2f}  prior {:5.2f}  tracked {:5.2f} (gain {:4.2f})  again "
-        "{:5.2f}\n",
-        video.stem().string(), s.spacing_frames, s.noise_px, s.spline_px, s.prior_px, s.tracked_px,
-        s.gain(), s.again_px);
+  double noise_px = -1;
+  for (const tracking::TrackScore& s : tracking::score_tracking(video, truth_of(video), options)) {
+    if (s.noise_px != noise_px)
+      fmt::print("{}| {} | {} |", noise_px < 0 ? "" : "\n", video.stem().string(), s.noise_px);
+    noise_px = s.noise_px;
+    fmt::print(" {:.2f} → {:.2f} → {:.2f} |", s.spline_px, s.tracked_px, s.again_px);
+  }
+  fmt::print("\n");
   std::fflush(stdout);
 }
 
@@ -53,6 +57,12 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   const auto model =
       stride::sagittal_model(stride::osim::load_osim(stride::osim::default_model_file()));
+  std::string head = "| clip | noise, px |", rule = "|---|---|";
+  for (const int spacing : options.spacings) {
+    head += fmt::format(" every {} |", spacing);
+    rule += "---|";
+  }
+  fmt::print("{}\n{}\n", head, rule);
   for (const std::string& clip : clips) stride::measure(clip, options, model);
 } catch (const stride::Error& error) {
   fmt::print(stderr, "track_accuracy: {}\n", error.what());

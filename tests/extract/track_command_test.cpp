@@ -7,6 +7,7 @@
 #include "extract/io/table.h"
 #include "extract/skeleton/trajectory.h"
 #include "extract/video/video.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -58,8 +59,12 @@ TEST(TrackCommand, SaysWhatIsWrong) {
   const std::string here = folder.path().string();
   EXPECT_ERROR(run("track " + here + "/none.mp4"), "none.mp4: no such video");
   fs::copy(kVideos / "human.mp4", folder / "human.mp4");
-  EXPECT_ERROR(run("track " + here + "/human.mp4"),
-               "human.keypoints.json: no such file; click points with 'stride annotate");
+  {
+    const EnvironmentVariable home("XDG_DATA_HOME", here), machine("XDG_DATA_DIRS", here);
+    EXPECT_ERROR(run("track " + here + "/human.mp4"), "click points with 'stride annotate");
+    EXPECT_ERROR(run("track " + here + "/human.mp4"), "./setup.sh --pose fetches the pose network");
+    EXPECT_ERROR(run("track " + here + "/human.mp4 --pose"), "no pose network is installed");
+  }
   std::string clicks = read_file(kVideos / "human.keypoints.json");
   clicks.replace(clicks.find("\"video_sha256\": \"") + 17, 4, "ffff");
   write_file_atomically(folder / "human.keypoints.json", clicks);

@@ -7,6 +7,7 @@
 #include "extract/annotation/journal.h"
 #include "extract/io/file.h"
 #include "extract/skeleton/trajectory.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -37,6 +38,28 @@ TEST(Convert, MakesAPotentialOfARunner) {
   EXPECT_NEAR(potential.period_s, 0.6867, 0.003);
   EXPECT_EQ(potential.keyframes.size(), 8u);
   EXPECT_EQ(potential.source, "human.mp4");
+}
+
+TEST(Convert, SaysWhosePointsAPotentialIsMadeOf) {
+  const TemporaryFolder folder;
+  for (const char* ending : {".mp4", ".keypoints.json"})
+    std::filesystem::copy_file(kVideos / (std::string("human") + ending),
+                               folder / (std::string("human") + ending));
+  const auto results = pipeline::convert({folder / "human.mp4"}, into(folder));
+  EXPECT_EQ(results[0].points, "clicks");
+  EXPECT_THAT(read_file(folder / "out" / "human.potential.json"),
+              testing::HasSubstr(R"("points": "clicks")"));
+  EXPECT_GT(load_potential(folder / "out" / "human.potential.json").period_s, 0);
+}
+
+TEST(Convert, SaysHowAVideoIsFollowedWithoutClicks) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(kVideos / "human.mp4", folder / "human.mp4");
+  const EnvironmentVariable home("XDG_DATA_HOME", folder.path().string()),
+      machine("XDG_DATA_DIRS", "/nowhere");
+  const auto results = pipeline::convert({folder / "human.mp4"}, into(folder));
+  EXPECT_TRUE(results[0].failed);
+  EXPECT_THAT(results[0].verdict, testing::HasSubstr("./setup.sh --pose"));
 }
 
 TEST(Convert, LeavesAloneWhatHasNotChanged) {

@@ -1,0 +1,113 @@
+#include "extract/tracking/corrections.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace stride::tracking {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The joint at the upper end of a part's limb, of each side; what both legs share is learned
+/// together.
+struct Limb {
+  std::array<BodyPart, 2> joint, above;
+};
+constexpr std::array kLimbs{
+    Limb{{BodyPart::knee_r, BodyPart::knee_l}, {BodyPart::pelvis, BodyPart::pelvis}},
+    Limb{{BodyPart::ankle_r, BodyPart::ankle_l}, {BodyPart::knee_r, BodyPart::knee_l}},
+    Limb{{BodyPart::toe_r, BodyPart::toe_l}, {BodyPart::ankle_r, BodyPart::ankle_l}}};
+
+constexpr double kClicksAsPrior = 1.5;  // that no offset is expected weighs as much as these
+constexpr double kReach_s = 0.04;       // over which the rest of a correction fades
+
+const TrajectoryFrame* frame_of(const Trajectory& points, int frame) {
+  const auto found = std::ranges::lower_bound(points.frames, frame, {}, &TrajectoryFrame::frame);
+  return found != points.frames.end() && found->frame == frame ? &*found : nullptr;
+}
+
+/// (along, across) in units of the limb → pixels: its columns are the limb and that turned by 90°.
+std::optional<Eigen::Matrix2d> axes(const TrajectoryFrame& frame, BodyPart joint, BodyPart above) {
+  if (!frame[joint].present() || !frame[above].present()) return std::nullopt;
+  const Vector2d limb = frame[joint].p_px - frame[above].p_px;
+  if (limb.norm() < 1) return std::nullopt;
+  Eigen::Matrix2d axes;
+  axes << limb.x(), -limb.y(), limb.y(), limb.x();
+  return axes;
+}
+
+/// Moves a joint on every frame by what the clicks say of it on average, in the limb's axes.
+void move_along_limb(const Limb& limb, const Trajectory& clicks, Trajectory& points) {
+  Vector2d sum = Vector2d::Zero();
+  double count = kClicksAsPrior;
+  for (const TrajectoryFrame& clicked : clicks.frames) {
+    const TrajectoryFrame* detected = frame_of(points, clicked.frame);
+    if (detected == nullptr) continue;
+    for (int side = 0; side < 2; ++side) {
+      const BodyPart joint = limb.joint[side];
+      const auto to_px = axes(*detected, joint, limb.above[side]);
+      if (!to_px || !clicked[joint].present()) continue;
+      const Vector2d offset = to_px->inverse() * (clicked[joint].p_px - (*detected)[joint].p_px);
+      if (offset.norm() > 0.5) continue;  // another leg, or nonsense
+      sum += offset;
+      ++count;
+    }
+  }
+  for (TrajectoryFrame& frame : points.frames)
+    for (int side = 0; side < 2; ++side)
+      if (const auto to_px = axes(frame, limb.joint[side], limb.above[side]))
+        frame[limb.joint[side]].p_px += *to_px * sum / count;
+}
+
+/// The rest of the corrections of a part: each fades with the distance in time.
+void move_near_clicks(BodyPart part, const Trajectory& clicks, Trajectory& points) {
+  struct Rest {
+    double time_s;
+    Vector2d px;
+  };
+  std::vector<Rest> rests;
+  for (const TrajectoryFrame& clicked : clicks.frames) {
+    const TrajectoryFrame* detected = frame_of(points, clicked.frame);
+    if (detected != nullptr && clicked[part].present() && (*detected)[part].present())
+      rests.push_back({detected->time_s, clicked[part].p_px - (*detected)[part].p_px});
+  }
+  for (TrajectoryFrame& frame : points.frames) {
+    Vector2d moved = Vector2d::Zero();
+    double weights = 0;
+    for (const Rest& rest : rests) {
+      const double weight = std::exp(-0.5 * std::pow((frame.time_s - rest.time_s) / kReach_s, 2));
+      moved += weight * rest.px;
+      weights += weight;
+    }
+    if (frame[part].present()) frame[part].p_px += moved / std::max(weights, 1.0);
+  }
+}
+
+void put(const Trajectory& clicks, Trajectory& points) {
+  for (const TrajectoryFrame& clicked : clicks.frames) {
+    auto at = std::ranges::lower_bound(points.frames, clicked.frame, {}, &TrajectoryFrame::frame);
+    if (at == points.frames.end() || at->frame != clicked.frame) {
+      at = points.frames.insert(at, TrajectoryFrame{});
+      at->frame = clicked.frame;
+      at->time_s = clicked.time_s;
+    }
+    for (const BodyPart part : kBodyParts)
+      if (clicked[part].present() || clicked[part].confidence > 0) (*at)[part] = clicked[part];
+  }
+}
+
+}  // namespace
+
+Trajectory corrected(const Trajectory& detected, const Trajectory& clicks) {
+  Trajectory points = detected;
+  for (const Limb& limb : kLimbs) move_along_limb(limb, clicks, points);
+  for (const BodyPart part : kBodyParts) move_near_clicks(part, clicks, points);
+  put(clicks, points);
+  return points;
+}
+
+}  // namespace stride::tracking
