@@ -60,7 +60,7 @@ void check_files(const CalibrateCommand& command, const Trajectory& trajectory,
                  {"--mot", files.motion, FileKind::motion}});
 }
 
-/// The video to draw on; empty if none is named and none lies beside the trajectory.
+/// The video to draw on; empty if none is given and none is beside the trajectory.
 fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory) {
   if (command.video.empty()) return report::video_in(command.trajectory.parent_path(), trajectory);
   require(fs::exists(command.video), "--video {}: no such file", command.video.string());

@@ -22,8 +22,8 @@ double inverse_distance(InverseDistance function, const Eigen::Vector2d& d, doub
   return 0;
 }
 
-/// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so that it is
-/// compared by its height.
+/// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so it is compared by
+/// its height.
 double closeness(const Potential& potential, const Pose& pose, const Pose& target) {
   const auto of = [&](const Eigen::Vector2d& d) {
     return inverse_distance(potential.function, d, potential.epsilon_m);

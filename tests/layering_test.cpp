@@ -1,4 +1,5 @@
-// The house: which room may include from which, how many units a room has, and no knots.
+// The layering: which room may include from which, how many units a room has, and no include cycles
+// of more than two units.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +20,9 @@ namespace fs = std::filesystem;
 /// this list. `commands` are the files of the command line, which know everything in their folder.
 const std::vector<std::string> kRooms{
     "extract/io", "extract/skeleton", "extract/video", "extract/import/parsing",
-    "extract/import/formats", "extract/import", "extract/pose/tflite", "extract/pose", "extract/tracking/gaussian_process",
-    "extract/tracking", "extract/annotation", "extract/annotation/session", "extract/commands",
+    "extract/import/formats", "extract/import", "extract/pose/tflite", "extract/pose",
+    "extract/tracking/gaussian_process", "extract/tracking", "extract/annotation",
+    "extract/annotation/session", "extract/commands",
     //
     "calibrate/osim", "calibrate/runner", "calibrate/fit", "calibrate/gait", "calibrate",
     "calibrate/report", "calibrate/commands",

@@ -4,8 +4,8 @@
 
 namespace stride::videos {
 
-/// A pinhole camera beside the way, looking across it. Axes of the world as in skeleton.h; image
-/// as in extract/trajectory.h.
+/// A pinhole camera beside the track, looking across it. World axes as in skeleton.h, image axes as
+/// in extract/skeleton/trajectory.h.
 struct Camera {
   int width_px = 640, height_px = 360;
   double focal_px = 1800;
@@ -23,9 +23,9 @@ struct Camera {
   double metres_per_pixel() const { return distance_m / focal_px; }
 
   Eigen::Vector2d project(const Eigen::Vector3d& p_m) const;
-  /// Turns a pixel into the plane of the image without roll, u right, v down, px.
+  /// Removes the roll from a pixel: u right, v down, px.
   Eigen::Vector2d upright(double u_px, double v_px) const;
-  /// The point of the plane z = const that a pixel shows.
+  /// The point of the plane z = const at a pixel.
   Eigen::Vector2d on_plane(double u_px, double v_px, double z_m) const;
 };
 

@@ -16,15 +16,15 @@ struct Harmonics {
   double operator()(double phase) const;
 };
 
-/// How somebody runs: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee −
-/// flexion, ankle + dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot
-/// strike, the left leg half a stride later.
+/// A gait: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee − flexion, ankle +
+/// dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot strike, the left
+/// leg half a stride later.
 struct Gait {
   std::string name, source;
   double period_s = 0;
   Harmonics hip_flexion_deg, knee_angle_deg, ankle_angle_deg, pelvis_tilt_deg;
   Harmonics pelvis_height_m;  // for legs of 0.857 m; only its variation is used
-  // What the sources do not tell, by eye.
+  // By eye, because the sources do not have it.
   Harmonics trunk_lean_deg;           // of the line hips → shoulders, forward positive
   Harmonics shoulder_deg, elbow_deg;  // of the right arm, flexion positive
   double squash = 0;  // the trunk is longer in flight and shorter in stance by this part

@@ -9,13 +9,12 @@
 
 namespace stride::videos {
 
-/// Half-widths of a body at a place along its axis, m. `front + back` > 0; one may be negative.
+/// Half-widths of a body at a position along its axis, m. `front + back` > 0; one may be negative.
 struct Station {
   double s = 0, front = 0, back = 0;
 };
 
-/// A piece of the runner: a rounded body around an axis in a plane z = const, shaded as if it were
-/// round.
+/// A part of the runner: a rounded body around an axis in a plane z = const, shaded as if round.
 struct Patch {
   Eigen::Vector2d origin;       // x, y, m
   Eigen::Vector2d axis, front;  // unit vectors
@@ -32,8 +31,7 @@ struct Patch {
   int group = 0;               // patches of one group follow each other and share an outline
 };
 
-/// Paints patches over one another on an image of floats, one sample at (u + du, v + dv) of each
-/// pixel.
+/// Paints patches in order on a float image, with one sample of each pixel at (u + du, v + dv).
 void paint(const std::vector<Patch>& patches, const Camera& camera, double du, double dv,
            cv::Mat& image);
 

@@ -18,8 +18,8 @@ struct Proportions {
   double hip_half_width = 0.085, ankle_half_width = 0.05, shoulder_half_width = 0.19;
 };
 
-/// Where everything of the runner is, m and rad. x the way of running, y up, z to the runner's
-/// right; index 0 right, 1 left.
+/// Positions and angles of the runner's parts, m and rad. x in the running direction, y up, z to
+/// the runner's right; index 0 right, 1 left.
 struct Skeleton {
   double phase = 0;
   double pelvis_tilt = 0;
@@ -27,7 +27,7 @@ struct Skeleton {
   Eigen::Vector3d pelvis, shoulders, head;  // the midpoint of the hips, of the shoulders
   std::array<Eigen::Vector3d, 2> hip, knee, ankle, toe, shoulder, elbow, wrist;
   double trunk_lean = 0, head_pitch = 0;
-  /// Angle of a segment from hanging straight down, forward positive; of the foot, toes up.
+  /// Angle of a segment from straight down, forward positive; of the foot, toes up.
   std::array<double, 2> thigh_angle{}, shank_angle{}, foot_angle{}, upper_arm_angle{},
       forearm_angle{};
 
@@ -39,14 +39,14 @@ struct Deviation {
   std::array<double, 2> hip{}, knee{}, ankle{};
 };
 
-/// The runner at a phase of the stride, hips at (x, height).
+/// Poses the runner at a phase of the stride, with the hips at (x, height).
 Skeleton pose(const Gait& gait, const Proportions& proportions, double phase, double x_m,
               double pelvis_height_m, const Deviation& deviation = {});
 
 /// Height of the lowest point of a shoe above the ground.
 double clearance(const Skeleton& skeleton, const Proportions& proportions, int side);
 
-/// What makes a gait stand on the ground with these proportions.
+/// Height and speed of a gait with these proportions.
 struct Grounding {
   double mean_height_m =
       0;                 // of the hips, so that the lowest shoe of the stride touches the ground
@@ -54,8 +54,8 @@ struct Grounding {
 };
 Grounding ground(const Gait& gait, const Proportions& proportions);
 
-/// The gait with a height of the pelvis that keeps the lower shoe on the ground, but for a hop of
-/// `hop_m` in each flight: where legs or angles are not those with which the height was measured.
+/// Replaces the pelvis height by one that keeps the lower shoe on the ground, plus a hop of `hop_m`
+/// in each flight; for gaits whose height was not measured with these legs and angles.
 Gait standing(Gait gait, const Proportions& proportions, double hop_m);
 
 }  // namespace stride::videos

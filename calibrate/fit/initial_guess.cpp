@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr int kGuessHarmonics = 4;
 
-/// A mark relative to the mark of the pelvis in the same frame, with the leg it belongs to.
+/// A point relative to the pelvis on the same frame, with its leg.
 struct Relative {
   double u_s;
   int side;

@@ -12,8 +12,7 @@ namespace stride::fit {
 /// marks.
 std::vector<StridePeriod> guess_periods(const Marks& observations, int count);
 
-/// Limbs and angles for a period by linear least squares: where the fit starts. `leg_m` sets the
-/// scale.
+/// Initial guess of limbs and angles for a period, by linear least squares. `leg_m` sets the scale.
 Runner guess_runner(const Marks& observations, const SagittalModel& model, double period_s,
                     double leg_m);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 // The residuals of the fit, each with its formula, for ceres::AutoDiffCostFunction. Pixels are
-// those of an image in which the runner faces right and y is up.
+// those of an image in which the runner faces right, with y up.
 
 #include "calibrate/runner/runner.h"
 
@@ -30,7 +30,7 @@ struct PointResidual {
     return true;
   }
 
-  /// The same where phase and angles are given.
+  /// The same for given phase and angles.
   template <typename T>
   void at_pose(const T* camera, const T* body, const T* sides, const T& tilt,
                const LegAngles<T>& leg, const T& phase, const T* pelvis_px, T* r) const {
@@ -56,7 +56,7 @@ struct PelvisResidual {
   }
 };
 
-/// What sets the scale: the length of the runner's legs is known as well as ln L ± sd.
+/// Prior on the length of the runner's legs, which sets the scale: ln L ± sd.
 ///   r = (ln (thigh + shank) − ln L) / sd
 struct LegLengthResidual {
   double leg_m, relative_sd;
@@ -69,7 +69,7 @@ struct LegLengthResidual {
   }
 };
 
-/// Proportions that the marks may not show: r = (ln (b_i / b_j) − ln ratio) / sd.
+/// Prior on a proportion: r = (ln (b_i / b_j) − ln ratio) / sd.
 struct ProportionResidual {
   int i, j;  // of `body`
   double ratio, relative_sd;
@@ -82,7 +82,8 @@ struct ProportionResidual {
   }
 };
 
-/// The marked pelvis is the midpoint of the hips: r = (hip offset) / sd. Two residuals.
+/// Prior that the labelled pelvis is the midpoint of the hips: r = (hip offset) / sd. Two
+/// residuals.
 struct HipsResidual {
   double sd_m;
 

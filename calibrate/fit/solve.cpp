@@ -48,7 +48,7 @@ void add_prior(ceres::Problem& ceres, std::array<double, N>& block,
   ceres.AddResidualBlock(new ceres::NormalPrior(inverse_sd, mean), nullptr, block.data());
 }
 
-/// What is known of any runner before the clip is seen. Wide: they matter where marks are silent.
+/// Weak priors on any runner, which matter only where the points say nothing.
 void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres) {
   Runner& r = fit.runner;
   const FitOptions& options = problem.options;
@@ -61,8 +61,8 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   const double period = r.cadence[cadence::period_s],
                span = std::max(problem.observations.duration_s, period);
   add_prior(ceres, r.cadence, {Prior{period, wide}, Prior{0, 0.03 / (period * span)}});
-  // The trunk leans with the pelvis. The marked pelvis is the midpoint of the hips within 1 cm,
-  // unless it is plainly somewhere else: Cauchy's loss lets the marks say so.
+  // The trunk leans with the pelvis. The labelled pelvis is the midpoint of the hips within 1 cm;
+  // Cauchy's loss allows for larger offsets.
   ceres.AddResidualBlock(cost<HipsResidual, 2, 7>(problem, {1 * cm}), new ceres::CauchyLoss(1.5),
                          r.body.data());
   add_prior(ceres, r.body,
@@ -78,8 +78,8 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   add_prior(ceres, r.tilt,
             {Prior{-4 * kDegree, 4 * kDegree}, Prior{0, stride}, Prior{0, stride}, Prior{0, step},
              Prior{0, step}});
-  // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1. It
-  // tells where every stride was clicked at the same few phases.
+  // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1.
+  // This prior matters where every stride was clicked at the same few phases.
   for (auto* curve : {&r.hip, &r.knee, &r.ankle}) {
     std::array<Prior, 2 * kMaxHarmonics + 1> priors;
     priors[0] = {0, 180 * kDegree};
@@ -117,7 +117,7 @@ void add_joint_limits(const FitProblem& problem, StrideFit& fit, ceres::Problem&
 }
 
 void add_marks(const FitProblem& problem, StrideFit& fit, Loss loss, ceres::Problem& ceres) {
-  // Marks that repeat one another count as fewer; the loss still judges each by its own noise.
+  // Correlated points have less weight, but the loss scales each by its own noise.
   const double inflation = std::sqrt(fit.correlation), sigma = fit.sigma_px * inflation;
   Runner& r = fit.runner;
   auto robust = [&]() -> ceres::LossFunction* {
@@ -147,7 +147,8 @@ void add_stance(const FitProblem& problem, StrideFit& fit, double* ground_m,
                 ceres::Problem& ceres) {
   Runner& r = fit.runner;
   const auto n = static_cast<double>(problem.stance.phases.size());
-  // A toe box bends and a heel rises: a centimetre (2.5 for an ankle), as if seen at three phases.
+  // Shoes bend and heels rise: a centimetre (2.5 for an ankle), weighted as if seen at three
+  // phases.
   const double sd = (fit.toes_seen ? 0.010 : 0.025) * std::sqrt(std::max(n / 3, 1.0));
   for (const int side : {1, -1})
     for (const double own : problem.stance.phases) {
@@ -172,7 +173,7 @@ void hold_what_is_not_asked(StrideFit& fit, ceres::Problem& ceres) {
   if (!fit.toes_seen) ceres.SetParameterBlockConstant(fit.runner.ankle.data());
 }
 
-/// The whole problem at the present state; `ground_m` must outlive it.
+/// The problem at the current state; `ground_m` must outlive it.
 void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_m,
            ceres::Problem& ceres) {
   for (const auto& [block, size] : shared_blocks(fit.runner)) ceres.AddParameterBlock(block, size);
@@ -186,14 +187,14 @@ void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_
   for (const int length : {body::thigh, body::shank, body::foot, body::trunk})
     ceres.SetParameterLowerBound(body, length, 0.01 * problem.options.leg_m.mean);
   ceres.SetParameterLowerBound(fit.runner.cadence.data(), cadence::period_s, 0.1);
-  // No step goes where its exponential overflows.
+  // Bounds keep exponentials from overflowing.
   double* camera = fit.runner.camera.data();
   const double log_scale = camera[camera::log_px_per_m];
   ceres.SetParameterLowerBound(camera, camera::log_px_per_m, log_scale - 3);
   ceres.SetParameterUpperBound(camera, camera::log_px_per_m, log_scale + 3);
 }
 
-/// The pelvis of every frame where most of its marks put it: one wrong mark moves nothing.
+/// Sets the pelvis of every frame to the median over its points, so one outlier has no effect.
 void place_pelvis(const FitProblem& problem, StrideFit& fit) {
   std::vector<std::vector<double>> x(fit.pelvis_px.size()), y(fit.pelvis_px.size());
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) pelvis.setZero();
@@ -240,7 +241,7 @@ StrideFit start(const FitProblem& problem, const StridePeriod& guess) {
     for (const int i : {body::thigh, body::shank, body::foot, body::trunk})
       fit.runner.body[i] *= ratio;
   }
-  fit.backward = fit.runner.knee[0] > 0;  // before the limits of the joints forbid it
+  fit.backward = fit.runner.knee[0] > 0;  // before the joint limits exclude it
   fit.runner.tilt[0] = -4 * kDegree;
   fit.runner.hip[0] += 4 * kDegree;
   fit.pelvis_px.assign(all.u_s.size(), Eigen::Vector2d::Zero());
@@ -304,7 +305,7 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
   fit.rms_px = std::sqrt(sum / std::max(count, 1.0));
   fit.outlier_fraction = 1 - count / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 
-  // Residuals of one part in neighbouring frames: how many say the same.
+  // Correlation of the residuals of a part in neighbouring frames.
   std::array<std::vector<Eigen::Vector2d>, kBodyPartCount> series;
   for (auto& each : series)
     each.assign(fit.pelvis_px.size(), Eigen::Vector2d::Constant(std::nan("")));
@@ -326,8 +327,8 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
     if (lag > 0 && mean < 0.1 * variance) break;
     if (lag > 0) alike += 2 * mean / variance;
   }
-  // A tracker that smooths hides the noise of the marks from which it started: the part that does
-  // not show is that of eight marks of each part a stride, however many frames repeat them.
+  // A smoothing tracker hides the noise of its clicks. The hidden part is that of eight clicks of
+  // each part a stride, however many frames are interpolated between them.
   const double strides = problem.observations.duration_s / fit.runner.cadence[cadence::period_s];
   const double frames = problem.observations.count[index(BodyPart::ankle_r)];
   const double copies = std::max(1.0, frames / (8 * std::max(strides, 1.0)));

@@ -7,13 +7,13 @@
 
 namespace stride::fit {
 
-/// Phases at which the foot of a leg stands, by its own cycle.
+/// Stance phases of a foot, in its own cycle.
 struct StanceCue {
-  BodyPart part_r = BodyPart::toe_r;  // what stands; of the left leg its mirror image
+  BodyPart part_r = BodyPart::toe_r;  // the part on the ground; for the left leg its mirror image
   std::vector<double> phases;         // empty: not known
 };
 
-/// What the fit is made of, besides its present state.
+/// The constant inputs of a fit.
 struct FitProblem {
   const Marks& observations;
   const SagittalModel& model;
@@ -22,7 +22,7 @@ struct FitProblem {
   StanceCue stance;
 };
 
-/// Cauchy's loss finds the way from afar, Tukey's gives gross outliers no say at all.
+/// Cauchy's loss converges from afar; Tukey's ignores gross outliers.
 enum class Loss { cauchy, tukey };
 
 struct Solution {
@@ -32,18 +32,19 @@ struct Solution {
 /// Where a guessed period starts.
 StrideFit start(const FitProblem& problem, const StridePeriod& guess);
 
-/// One solve with Ceres from the present state at its present noise.
-/// `tolerance`: the relative decrease of the cost at which it ends.
+/// One solve with Ceres from the current state at its noise level. `tolerance`: relative decrease
+/// of the cost at which it ends.
 Solution solve(const FitProblem& problem, StrideFit& fit, Loss loss, double tolerance);
 
-/// Residuals, outliers, the robust standard deviation of a mark, and how much frames repeat one
-/// another.
+/// Updates residuals, outliers, the robust standard deviation of a point, and the correlation of
+/// frames.
 void estimate_noise(const FitProblem& problem, StrideFit& fit);
 
-/// (JᵀJ)⁻¹ at the solution, the pelvis of every frame eliminated.
+/// (JᵀJ)⁻¹ at the solution, with the pelvis of every frame eliminated.
 void estimate_covariance(const FitProblem& problem, StrideFit& fit);
 
-/// How many harmonics the marks can tell at all: two for a stride seen at five phases.
+/// The largest number of harmonics that the points can determine: two for a stride seen at five
+/// phases.
 int max_harmonics(const Marks& observations, const Runner& runner);
 
 }  // namespace stride::fit

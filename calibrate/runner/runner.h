@@ -15,9 +15,9 @@ using Series = std::array<double, N>;
 
 inline constexpr int kMaxHarmonics = 6;
 
-/// A runner as the fit sees one: limbs of the runner's own lengths that hang from the midpoint of
-/// the hips, periodic angles, and the camera. Axes of the ground: x the way of running, y up. Each
-/// member is one block of parameters; the indices of its entries are below.
+/// The parameters of the fit: lengths of the limbs, which hang from the midpoint of the hips,
+/// periodic angles, and the camera. Axes of the ground: x in the running direction, y up. Each
+/// member is a parameter block; the indices of its entries are below.
 struct Runner {
   std::array<double, 3> camera{};
   std::array<double, 2> cadence{};
@@ -41,7 +41,7 @@ namespace sides {  // half of right − left. depth: the nearer leg looks larger
 enum { depth, hip_x, hip_y, swing_cos, swing_sin, drop_cos, drop_sin };
 }
 
-/// Which way a leg of the runner is told from the other: +1 right, −1 left.
+/// Sign of a leg: +1 right, −1 left.
 inline int side_of(BodyPart part) {
   switch (part) {
     case BodyPart::hip_r:
@@ -59,7 +59,7 @@ inline int side_of(BodyPart part) {
   }
 }
 
-/// The value of a series with `harmonics` of its harmonics at a phase.
+/// Value of a series with its first `harmonics` harmonics at a phase.
 template <typename T>
 T evaluate_series(const T* c, int harmonics, const T& phase) {
   using std::cos;
@@ -103,7 +103,7 @@ LegAngles<T> leg_angles(const T* hip, const T* knee, const T* ankle, const T* as
           evaluate_series(ankle, harmonics, own) + half * evaluate_series(asymmetry + 6, 1, own)};
 }
 
-/// Where the parts of the model's foot and trunk point, as unit vectors.
+/// Directions of the model's foot and trunk, as unit vectors.
 struct Directions {
   Eigen::Vector2d foot;   // talus to toes at foot angle 0
   Eigen::Vector2d trunk;  // hips to head at tilt 0
@@ -112,7 +112,7 @@ struct Directions {
         trunk((model.p_pelvis_head_m - model.p_pelvis_hip_m).normalized()) {}
 };
 
-/// A part of the runner from the marked pelvis, m: limbs of fixed length, knees that are hinges.
+/// Position of a part relative to the labelled pelvis, m: limbs of fixed length, knees as hinges.
 template <typename T>
 Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body, const T* sides,
                       const T& tilt, const LegAngles<T>& leg, const T& phase) {

@@ -6,14 +6,14 @@
 
 namespace stride::tracking {
 
-/// What is marked on a video.
+/// The labelled points of a video.
 struct LabelledClip {
   Trajectory marks;
-  double slow_motion = 1;         // seconds of video a second of the runner
+  double slow_motion = 1;         // seconds of video per second of the runner
   std::string points = "clicks";  // whose they are: "clicks", "network", "mixed", "import"
 };
 
-/// The clicks on a video, those that a killed `stride annotate` left in its journal included.
+/// The clicks on a video, including those that a killed `stride annotate` left in its journal.
 /// `slow_motion` > 0 replaces what the clicks say. Throws Error naming the cure where there is no
 /// such video, where it was not clicked, or where it is not the one that was clicked.
 LabelledClip clicks_on(const std::filesystem::path& video,

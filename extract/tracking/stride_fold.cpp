@@ -78,7 +78,7 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
       row_weights[i] = weights[static_cast<std::size_t>(i)];
     }
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
-    double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
+    double spread_px = std::numeric_limits<double>::infinity();  // no information if unseen
     if (n > 0) {
       const RobustFit joint_fit =
           robust_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());

@@ -17,8 +17,8 @@ namespace stride::video {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether a file has the boxes of an mp4 or mov but no `moov`, the index that is written last: a
-/// recording that was never closed or a copy that was cut off.
+/// Whether a file has the boxes of an mp4 or mov but no `moov`, the index that is written last: an
+/// unfinished recording or a truncated copy.
 bool is_mp4_without_index(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::uintmax_t size = fs::file_size(file);

@@ -10,8 +10,8 @@
 namespace stride::ddpg {
 namespace {
 
-/// Asks for large pages, before the memory is first written: what is read all over the place spends
-/// a quarter of its time on the translation of addresses otherwise.
+/// Requests large pages before the memory is first written. Random reads otherwise spend a quarter
+/// of their time on address translation.
 template <typename Element>
 void advise_large_pages(Element* data, std::size_t count) {
   constexpr std::size_t kPage = 4096;
@@ -20,7 +20,7 @@ void advise_large_pages(Element* data, std::size_t count) {
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-/// Has memory brought near while other things are done.
+/// Prefetches memory.
 template <typename Element>
 void prefetch(const Element* data, Eigen::Index count) {
   constexpr std::ptrdiff_t kLine = 64;
@@ -116,8 +116,8 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
 
   for (int s = 0; s < options.batch; ++s) {
     const auto& [round, environment, mirror] = batch.draws[static_cast<std::size_t>(s)];
-    // Up to n steps, fewer at the end of the episode or of what is known. The potentials in
-    // between cancel: Σ γⁱ Fᵢ = γᵐ Φ(s_m) − Φ(s_0).
+    // Up to n steps, fewer at the end of the episode or of the memory. The potentials in between
+    // cancel: Σ γⁱ Fᵢ = γᵐ Φ(s_m) − Φ(s_0).
     const auto phi = [&, mirrored = mirror](const Record& r) {
       return mirrored ? r.phi_mirrored : r.phi;
     };

@@ -19,7 +19,7 @@ simulation::EngineOptions engine_options(const RunnerOptions& options) {
 /// [0, 1)
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// The depth to which the feet sink in quiet standing, m.
+/// Depth of the feet in the soft ground in quiet standing, m.
 constexpr double kStandingDepth_m = 0.025;
 
 double deepest_contact(const osim::Model& model, const simulation::RunnerKinematics& kinematics) {

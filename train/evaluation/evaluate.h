@@ -10,7 +10,7 @@
 namespace stride::evaluation {
 
 struct EvaluateOptions {
-  int episodes = 1;            // seeds 0, 1, …; the film shows the one that came farthest
+  int episodes = 1;            // seeds 0, 1, …; the film shows the one with the largest distance
   std::string agent = "best";  // best.safetensors, or agent: the last one
   int difficulty = -1;         // -1: as in training
   std::string rules, engine;   // empty: as in training
@@ -24,7 +24,7 @@ struct Evaluation {
   std::vector<network::EpisodeSummary> episodes;
   double distance_m = 0, distance_se_m = 0;  // mean and standard error
   int falls = 0;
-  rollout::GaitSummary gait;  // of the episode that came farthest
+  rollout::GaitSummary gait;  // of the episode with the largest distance
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -17,8 +17,8 @@ struct ExperimentOptions {
   std::string command;           // as it was given, for the report
 };
 
-/// Runs what is not done yet, continuing runs that were interrupted; then writes the report:
-/// curves, configurations, results.md and the figures. Returns false if it was stopped.
+/// Runs everything that is not done yet, continuing interrupted runs; then writes the report:
+/// curves, configurations, results.md and figures. Returns false if it was stopped.
 bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
                     std::FILE* messages);
 

@@ -14,7 +14,7 @@ cv::Scalar mixed(const cv::Scalar& a, const cv::Scalar& b, double weight);
 
 simulation::Planar between(simulation::Planar a, simulation::Planar b, double weight);
 
-/// A picture with the ground's axes: metres in, anti-aliased drawing out.
+/// A canvas in axes of the ground, in metres, with anti-aliasing.
 class Canvas {
  public:
   /// Of that size times kOversampling.
@@ -32,7 +32,7 @@ class Canvas {
   /// A limb's bone from a to b, thicker at its ends, with a rim.
   void bone(simulation::Planar a, simulation::Planar b, double end_m, double waist_m,
             const cv::Scalar& fill, const cv::Scalar& rim);
-  /// What clothes the bones: a tapered piece of the body's outline.
+  /// A tapered piece of the body's outline around the bones.
   void flesh(simulation::Planar a, simulation::Planar b, double radius_a_m, double radius_b_m,
              const cv::Scalar& colour);
   /// A thin tendon with a belly, along the points of a muscle's path.

@@ -37,10 +37,10 @@ double resident_MiB() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// Of 53 bits, the same with every standard library.
+/// With 53 bits, the same for every standard library.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// One engine that lives through one episode after another.
+/// An engine that runs one episode after another.
 class Runner {
  public:
   Runner(const std::string& name, const osim::Model& model, const BenchOptions& options,
@@ -53,7 +53,7 @@ class Runner {
     begin_episode();
   }
 
-  /// Until the wall clock says so, or for that many steps.
+  /// Runs for the given wall time or number of steps.
   void run(double seconds, long steps) {
     const double cpu = thread_cpu_s(), end = wall_s() + seconds;
     const long last = result_.steps + steps;

@@ -8,8 +8,9 @@
 
 namespace stride::simulation {
 
-/// How fast an engine is: random excitations, uniform in [0, 1], held for ten steps of 0.01 s;
-/// episodes from equilibrium under the rules `clean`, restarted at a fall or after 1000 steps.
+/// Measures the speed of engines under random excitations, uniform in [0, 1] and held for ten steps
+/// of 0.01 s; episodes start in equilibrium under the rules `clean` and end at a fall or after 1000
+/// steps.
 struct BenchOptions {
   double seconds = 2;  // of wall time, for each engine
   long steps = 0;      // if positive: this many steps instead, on each thread
@@ -36,13 +37,12 @@ struct BenchResult {
   double us_per_evaluation() const { return 1e6 * cpu_s / evaluations; }
 };
 
-/// Runs the engines side by side, taking turns, so that a busy machine slows all alike. Threads
-/// share nothing.
+/// Runs the engines in turns, so that a busy machine slows all equally. Threads share nothing.
 std::vector<BenchResult> bench(const std::vector<std::string>& engines, const osim::Model& model,
                                const BenchOptions& options);
 
-/// What an accuracy costs and what it gives: rollouts of one second (or until a fall) under the
-/// bench's excitations against the planar engine at an accuracy of 1e-9.
+/// Cost and error of an accuracy: rollouts of one second (or until a fall) under the bench's
+/// excitations, compared with the planar engine at an accuracy of 1e-9.
 struct AccuracyRow {
   std::string engine;
   double accuracy = 0;

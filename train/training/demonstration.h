@@ -9,8 +9,8 @@
 
 namespace stride::training {
 
-/// What a run of somebody else's gives to training: the potential that shapes the reward, and the
-/// run itself, on which episodes may start (reference state initialisation, Peng et al. 2018).
+/// A demonstration: the potential that shapes the reward, and the run itself, from which episodes
+/// may start (reference state initialisation, Peng et al. 2018).
 struct Demonstration {
   std::optional<Potential> potential;
   std::optional<CalibratedTrajectory> reference;
@@ -24,8 +24,8 @@ Demonstration load_demonstration(const std::filesystem::path& potential,
                                  const std::filesystem::path& reference,
                                  const EnvironmentOptions& options);
 
-/// The copies in a run folder, as its configuration names them. save() names them in `options`;
-/// the overrides of the potential are applied in loading.
+/// The copies in a run folder, named by its configuration. save() sets these names in `options`;
+/// loading applies the overrides of the potential.
 void save(const Demonstration& demonstration, const std::filesystem::path& run,
           TrainOptions& options);
 Demonstration load_run_demonstration(const TrainOptions& options, const std::filesystem::path& run);

@@ -21,14 +21,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Beyond it a value is taken for a divergence: rewards of metres do not add up to it.
+/// Values beyond it count as divergence; rewards in metres cannot add up to it.
 constexpr double kDivergedValue = 1e6;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Keeps a second program from training in the same folder.
+/// Locks the folder against a second training program.
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& run)
@@ -44,7 +44,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Removes what a kill left half written (write_file_atomically()).
+/// Removes files that a kill left half written (write_file_atomically()).
 void remove_unfinished_files(const fs::path& folder) {
   if (!fs::exists(folder)) return;
   std::vector<fs::path> unfinished;
@@ -61,7 +61,7 @@ std::string duration_text(double s) {
   return fmt::format("{} s", t);
 }
 
-/// The files that grow while training, and the line that tells how it goes.
+/// The files that grow during training, and the progress line.
 class Journal {
  public:
   Journal(const fs::path& run, const Progress& progress, std::FILE* messages)
@@ -92,7 +92,7 @@ class Journal {
     tell(options, progress, steps_per_s, decisions / s);
   }
 
-  /// Does what writes to the disk; a failure is reported, and training goes on.
+  /// Runs a function that writes to the disk; a failure is reported, and training continues.
   template <typename Write>
   void keep(const Write& write) {
     try {
@@ -116,7 +116,7 @@ class Journal {
   }
 
  private:
-  /// On a terminal the line replaces itself; elsewhere there is one a minute.
+  /// On a terminal the line is rewritten; elsewhere one is printed every minute.
   void tell(const TrainOptions& options, const Progress& progress, double steps_per_s,
             double decisions_per_s) {
     if (messages_ == nullptr) return;
@@ -141,14 +141,14 @@ class Journal {
   Clock::time_point start_ = Clock::now(), last_row_ = start_, last_line_ = start_;
 };
 
-/// Updates that are due by now: a fixed share of the decisions after the warm-up.
+/// Number of updates due: a fixed ratio to the decisions after the warm-up.
 std::int64_t updates_due(const TrainOptions& options, const Progress& progress) {
   const auto learned = static_cast<double>(progress.decisions - options.run.warm_up);
   return static_cast<std::int64_t>(std::max(0.0, learned) * options.run.updates_per_decision) -
          progress.updates;
 }
 
-/// The learner's share of a round: samples what was known when the round began.
+/// The learner's part of a round: samples from the rounds before it.
 template <typename Scalar>
 std::string learn(const TrainOptions& options, bool shaped, std::int64_t updates,
                   Training<Scalar>& training, ddpg::Batch<Scalar>& batch) {
@@ -183,7 +183,7 @@ std::string learn(const TrainOptions& options, bool shaped, std::int64_t updates
   return {};
 }
 
-/// One environment's share of a round.
+/// One environment's part of a round.
 template <typename Scalar>
 void explore(const TrainOptions& options, const network::Policy<Scalar>& policy, int slot,
              Training<Scalar>& training) {
@@ -196,7 +196,7 @@ void explore(const TrainOptions& options, const network::Policy<Scalar>& policy,
   }
 }
 
-/// After a round: its records join the memory, in the order of the slots.
+/// After a round: adds its records to the memory, in the order of the slots.
 template <typename Scalar>
 void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& training) {
   Progress& progress = training.progress;
@@ -221,7 +221,7 @@ void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& t
     }
 }
 
-/// Where the agent is evaluated: without noise, as the rules start an episode.
+/// Evaluates the agent without noise, in episodes that start by the rules.
 template <typename Scalar>
 class Evaluator {
  public:
@@ -295,8 +295,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     }
     if (stop || progress.decisions >= options.run.decisions) break;
 
-    // A round. Everybody acts by the same copy of the actor; meanwhile the learner learns from what
-    // was known when the round began: so it does not matter who is faster.
+    // A round. All environments act with the same copy of the actor; meanwhile the learner samples
+    // from the rounds before. The result does not depend on timing.
     const network::Policy<Scalar> policy = policy_of(training, options);
     const std::int64_t updates = updates_due(options, progress);
     pool.run(1 + options.run.environments, [&](int task) {
@@ -323,7 +323,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
   keep_last([&] { save_checkpoint(training, run); });
   summary.finished = progress.decisions >= options.run.decisions;
   // After the checkpoint, so that a run that is continued with more decisions has no row that an
-  // uninterrupted one would not have.
+  // uninterrupted run would not have.
   if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
   if (progress.rows > 0) keep_last([&] { journal.save_rows(); });
   summary.progress = progress;

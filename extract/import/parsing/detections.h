@@ -24,7 +24,7 @@ struct ImportOptions {
   std::optional<int> first_frame;  // what the file calls the video's first frame; else told from it
 };
 
-/// What a file says of one frame. A part that was not seen is absent (`Point::present()`).
+/// One frame of a file. Parts that were not seen are absent (`Point::present()`).
 struct ImportedFrame {
   int frame = 0;  // index in decoding order, from 0
   std::array<Point, kBodyPartCount> points;
@@ -39,10 +39,10 @@ struct ImportedPerson {
   double height_px = 0;  // median extent of the points
 };
 
-/// One person's points as another program found or somebody labelled them, in pixels as in
-/// `Point`. The pelvis is the file's own middle of the hips, or else the mean of its two hips; the
-/// head is the file's, or else the mean of the ears, or else the nose. Confidence is the file's,
-/// cut to [0, 1]; what a person labelled has 1, or 0.5 where it was marked as hidden.
+/// One person's points, detected or labelled, in pixels as in `Point`. The pelvis is the file's own
+/// middle of the hips, else the mean of its two hips; the head is the file's, else the mean of the
+/// ears, else the nose. Confidence is the file's, clamped to [0, 1]; labels have 1, hidden ones
+/// 0.5.
 struct Detections {
   std::string format;                  // one of import_formats()
   std::vector<ImportedFrame> frames;   // growing `frame`, each with at least one point

@@ -20,8 +20,8 @@ std::vector<GaitPrior> likely_gait_priors(const Observations& clicks, const Peri
 /// long clip its middle is used.
 GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations);
 
-/// Each part at each time given the observations; pelvis first, the others relative to it. A part
-/// without observations has NaN. Variances cost most of the time; 0 without them.
+/// Posterior mean of each part at each time: first the pelvis, then the others relative to it. NaN
+/// for a part without observations. Variances, which take most of the time, are 0 unless asked for.
 Estimates estimate(const GaitPrior& prior, const Observations& observations,
                    const std::vector<double>& times_s, bool with_variance = true);
 

@@ -12,13 +12,13 @@ struct Fitted {
   double cost;  // −log posterior probability, without constants
 };
 
-/// −log probability of the hyperparameters of legs, or of the trunk, before anything is seen.
+/// −log prior probability of the hyperparameters of legs or of the trunk.
 double improbability(const GaitKernel& kernel, bool legs);
 
 /// Of the kernels of legs.
 double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups);
 
-/// Multiplies, or else divides, by a factor as long as that lowers the cost.
+/// Multiplies by a factor while that lowers the cost; if the first factor does not, divides.
 template <typename State, typename Multiply, typename Cost>
 void descend(State& best, double& least, double factor, int most_moves, Multiply multiply,
              Cost cost) {

@@ -9,8 +9,8 @@
 
 namespace stride::laws {
 
-/// A model at one moment: coordinates and speeds in the order of Model::coordinates, frames in that
-/// of Model::bodies.
+/// A model in a state: coordinates and speeds in the order of Model::coordinates, frames in that of
+/// Model::bodies.
 struct PlacedRunner {
   std::vector<double> q, u;
   std::vector<BodyFrame> frames;
@@ -24,7 +24,7 @@ struct PlacedRunner {
             f.origin_m[2] + location_m[2]};
   }
 
-  /// Velocity of the body's material that is at a point of the ground's axes.
+  /// Velocity of the material point of a body at a position in axes of the ground.
   simulation::Planar velocity(int body, const osim::Vec3& point_m) const {
     if (body < 0) return {};
     const BodyFrame& f = frames[body];

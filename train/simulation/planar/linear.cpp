@@ -11,7 +11,7 @@ using simd::V4;
 
 namespace {
 
-/// Rows of a leg's system: ankle, knee, hip, tilt, x, y.
+/// A vector over ankle, knee, hip of both legs (in lanes) and tilt, x, y of the pelvis.
 struct Rows {
   V2 leg[3];
   double base[3];
@@ -28,7 +28,7 @@ void set_rows(PlanarState& y, int first, const Rows& r) {
   y.y[first + 2] = V4{r.base[2], 0, 0, 0};
 }
 
-/// result += factor · matrix · x
+/// result += factor · matrix · x. The legs' shares of the pelvis rows are summed.
 void multiply(const V2 (&matrix)[6][6], double factor, const Rows& x, Rows& result) {
   V2 in[6], out[6] = {};
   for (int i = 0; i < 3; ++i) in[i] = x.leg[i], in[3 + i] = both(x.base[i]);
@@ -57,10 +57,12 @@ V2 of_muscle(const PlanarFibers& f, int muscle) {
 
 void PlanarSolver::factor(const PlanarLinear& linear, double s) {
   s_ = s;
+  // d and g d of (b), four muscles at a time.
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     delay_[g] = s / (1 - s * linear.fiber_1_s[g]);
     pull_[g] = linear.fiber_N_m[g] * delay_[g];
   }
+  // K' = K + Rᵀ (k_t - g d J_L) R. Rows are ankle, knee, hip; arms are hip, knee, ankle.
   spring_ = linear.stiffness;
   PlanarFibers stiffness;
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
@@ -73,12 +75,14 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
       for (int j = i; j < 3; ++j) spring_.at[i][j] += k * arm[2 - i] * arm[2 - j];
     }
   }
+  // W = M + s D + s² K'.
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) {
       system_.at[i][j] =
           linear.mass.matrix[i][j] + s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
     }
   }
+  // Eliminate ankle, knee, hip of both legs: W_ij -= W_pi W_pj / W_pp.
   for (int p = 0; p < 3; ++p) {
     inverse_[p] = 1 / system_.at[p][p];
     for (int i = p + 1; i < 6; ++i) {
@@ -86,6 +90,7 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
       for (int j = i; j < 6; ++j) system_.at[i][j] -= factor * system_.at[p][j];
     }
   }
+  // What remains of both legs, plus the mass matrix of the base's own body: 3×3 for the pelvis.
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) base_[i][j] = sum(system_.at[3 + i][3 + j]);
   }
@@ -106,7 +111,7 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
 
 void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& result) const {
   const Rows rq = rows_of(right, 0), ru = rows_of(right, State::kU);
-  // Right side: s (M Ru + Rᵀ g delay Rl - s K Rq).
+  // The right side of (c), over s: first M b_u, of the legs and of the base's own body,
   Rows b{};
   multiply(linear.mass.matrix, 1, ru, b);
   const double m = linear.mass.base_mass_kg, x = linear.mass.base_x_m, y = linear.mass.base_y_m;
@@ -114,7 +119,9 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
                m * y * ru.base[1] + m * x * ru.base[2];
   b.base[1] += m * (ru.base[1] - y * ru.base[0]);
   b.base[2] += m * (ru.base[2] + x * ru.base[0]);
+  // then - s K' b_q,
   multiply(spring_.at, -s_, rq, b);
+  // then Rᵀ g d b_l.
   PlanarFibers pulled;
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     pulled[g] = pull_[g] * right.y[State::kFiber + g];
@@ -123,13 +130,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
     const V2 f = of_muscle(pulled, n);
     for (int i = 0; i < 3; ++i) b.leg[i] += f * linear.arm[n][2 - i];
   }
-  // Forward, base, back.
+  // Forward substitution through the legs,
   V2 r[6];
   for (int i = 0; i < 3; ++i) r[i] = s_ * b.leg[i], r[3 + i] = V2{};
   for (int p = 0; p < 3; ++p) {
     const V2 scaled = r[p] * inverse_[p];
     for (int i = p + 1; i < 6; ++i) r[i] -= system_.at[p][i] * scaled;
   }
+  // then the pelvis,
   double c[3];
   for (int i = 0; i < 3; ++i) c[i] = s_ * b.base[i] + sum(r[3 + i]);
   for (int p = 0; p < 2; ++p) {
@@ -140,12 +148,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
     for (int j = p + 1; j < 3; ++j) c[p] -= base_[p][j] * u.base[j];
     u.base[p] = c[p] * base_inverse_[p];
   }
+  // and back through hip, knee, ankle.
   for (int p = 2; p >= 0; --p) {
     V2 left = r[p];
     for (int j = p + 1; j < 3; ++j) left -= system_.at[p][j] * u.leg[j];
     for (int j = 0; j < 3; ++j) left -= system_.at[p][3 + j] * both(u.base[j]);
     u.leg[p] = left * inverse_[p];
   }
+  // (a)
   Rows q;
   for (int i = 0; i < 3; ++i) {
     q.leg[i] = s_ * (rq.leg[i] + u.leg[i]);
@@ -153,6 +163,7 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   }
   set_rows(result, 0, q);
   set_rows(result, State::kU, u);
+  // (b), with R q by muscle of a leg; the tenth fills the last group of four.
   V2 stretch[PlanarModel::kMusclesOfLeg + 1];
   for (int n = 0; n < PlanarModel::kMusclesOfLeg; ++n) {
     stretch[n] =
