@@ -129,8 +129,9 @@ void judge_view(const Trajectory& trajectory, Verdict& verdict) {
   judge_posture(trajectory, leg, verdict);
   if (fore_aft < 0.3 * leg && vertical < 0.12 * leg)
     verdict.refuse(fmt::format(
-        "the feet move by {:.0f} % of a leg: nobody runs here; if the file of points holds others, "
-        "take another person (stride track --import … --person 2)",
+        "the feet move by {:.0f} % of a leg: nobody runs here; is another person in the "
+        "file of points the runner (stride track --import … --person 2), or are they on the right "
+        "joints (another layout, as OpenPose's BODY_25B)?",
         100 * std::hypot(fore_aft, vertical) / leg));
   else if (fore_aft < 0.45 * leg)
     verdict.refuse(

@@ -32,7 +32,8 @@ struct JointPair {
 };
 
 /// Whether right is right on every frame. Where it may not be, only what does not change when the
-/// legs are exchanged is used: sum and squared difference of the two.
+/// legs are exchanged is used: sum and squared difference of the two. Twice the period may then
+/// explain as much.
 enum class LegNames { trusted, unknown };
 
 struct StridePeriod {

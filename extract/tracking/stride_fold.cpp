@@ -5,10 +5,7 @@
 #include <numbers>
 
 #include "extract/io/statistics.h"
-/// Seen from the side both legs swing about the same place. A weight of this share of all points on
-/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
-/// one another, so that one is always in front, would fit as well.
-constexpr double kSidesAlike = 0.25;
+#include "extract/skeleton/fourier_series.h"
 #include "extract/skeleton/robust_linear_fit.h"
 
 namespace stride::tracking {
@@ -17,6 +14,10 @@ namespace {
 using Eigen::Vector2d;
 using Basis = Eigen::Matrix<double, 10, 1>;
 
+/// Seen from the side both legs swing about the same place. A weight of this share of all points on
+/// that halves the distance between the two; without it, legs that are exchanged whenever they pass
+/// one another, so that one is always in front, would fit as well.
+constexpr double kSidesAlike = 0.25;
 constexpr int kMostAlike = 4;  // periods that the spacing of the frames makes alike
 
 /// Offsets of right and left, then cosine and sine of each harmonic.
@@ -27,16 +28,14 @@ Basis basis(double time_s, int side, double period_s) {
   return b;
 }
 
-const RobustLinearFit joint_fit =
-    robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike* row_weights.sum());
+constexpr double kShortestOfRunners_s = 0.4;
 
 /// Whether another period can look the same at these times: four of them in the shortest of a
 /// runner tell.
 bool has_aliases(const std::vector<double>& times_s) {
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps_s.push_back(times_s[i] - times_s[i - 1]);
-  const RobustLinearFit joint_fit =
-      robust_linear_fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
+  return median(steps_s) > kShortestOfRunners_s / 4;
 }
 
 }  // namespace

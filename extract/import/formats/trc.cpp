@@ -36,12 +36,12 @@ int frame_at(const TextLine& line, double rate_hz, const std::string& file) {
   return timed == numbered || timed == numbered - 1 ? static_cast<int>(timed) : numbered;
 }
 
-/// How many rows the header announces; 0 if it does not say.
-double announced_frames(const std::vector<TextLine>& lines, const std::string& file) {
+/// How many rows the header announces; 0 if it does not say (NaN counts as nothing too).
+double announced_frames(const std::vector<TextLine>& lines) {
   const auto& names = lines[1].cells;
   const auto column =
       static_cast<std::size_t>(std::ranges::find(names, "NumFrames") - names.begin());
-  return column < lines[2].cells.size() ? number_in(lines[2], column, file) : 0;
+  return column < lines[2].cells.size() ? cell_number(lines[2].cells[column]).value_or(0) : 0;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ ImportedFile read_trc(std::string_view text, const std::string& file,
   content.unused_labels = map.unused(columns.labels);
   double largest = 0;
   const int rows = static_cast<int>(lines.size()) - 5;
-  const double announced = announced_frames(lines, file);
+  const double announced = announced_frames(lines);
   if (announced > rows)
     content.warnings.push_back(fmt::format(
         "NumFrames = {}, but {} rows are there: the file was cut off{}", announced, rows,

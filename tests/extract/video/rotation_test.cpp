@@ -33,7 +33,7 @@ cv::Mat corner_lit(int x, int y) {
 
 /// Writes the matrix into the header of the track.
 std::string with_matrix(std::string mp4, const Matrix& m) {
-  const std::size_t matrix = mp4.find("tkhd") + 40;
+  const std::size_t matrix = mp4.find("tkhd") + 44;
   const auto put = [&](std::size_t entry, int value) {
     const auto fixed = static_cast<std::uint32_t>(value * 65536);
     for (std::size_t i = 0; i < 4; ++i)
