@@ -82,10 +82,10 @@ void bind_potential(py::module_& module) {
       .def_readwrite("weight", &Potential::weight)
       .def_readwrite("epsilon_m", &Potential::epsilon_m)
       .def_property(
-          "function", [](const Potential& p) { return std::string(name(p.function)); },
+          "function", [](const Potential& p) { return std::string(kInverseDistances[p.function]); },
           [](Potential& p, const std::string& word) { p.function = inverse_distance(word); })
       .def_property(
-          "index", [](const Potential& p) { return std::string(name(p.index)); },
+          "index", [](const Potential& p) { return std::string(kPotentialIndices[p.index]); },
           [](Potential& p, const std::string& word) { p.index = potential_index(word); });
   module.def("shaping_reward", &rewards, py::arg("phi"), py::arg("next_phi"), py::arg("gamma"),
              py::arg("terminated"),
