@@ -7,8 +7,8 @@
 
 #include "extract/io/error.h"
 #include "extract/parallel/ranks.h"
+#include "train/commands/interrupt.h"
 #include "train/experiments/experiment.h"
-#include "train/training/interrupt.h"
 
 namespace stride {
 namespace {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "train/commands/interrupt.h"
 #include "train/experiments/plot.h"
-#include "train/training/interrupt.h"
 
 namespace stride {
 

@@ -6,8 +6,8 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/parallel/ranks.h"
+#include "train/commands/interrupt.h"
 #include "train/ppo/train_run.h"
-#include "train/training/interrupt.h"
 #include "train/training/runner_factory.h"
 
 namespace stride {
