@@ -8,17 +8,17 @@
 
 namespace stride {
 
-/// Everything that is found out about a clip.
+/// The result of a calibration.
 struct Calibration {
   gait::Verdict verdict;
   fit::Marks observations;
-  fit::StrideFit fit;  // ok false where the clip was refused before or by the fit
+  fit::StrideFit fit;  // ok is false if the clip was refused before or by the fit
   gait::Gait gait;
-  CalibratedTrajectory run;  // on the model's proportions; no samples if there is no fit
+  CalibratedTrajectory run;  // on the model's proportions; without samples if there is no fit
 };
 
-/// Trajectory in pixels → run in metres on the model. A clip that cannot be explained is a value:
-/// `verdict.refused`.
+/// Converts a trajectory in pixels to a run in metres on the model. A clip that cannot be explained
+/// is not an error: see `verdict.refused`.
 Calibration calibrate(const Trajectory& trajectory, const SagittalModel& model,
                       const fit::FitOptions& options = {});
 

@@ -26,7 +26,7 @@ struct CalibrateCommand {
   bool force = false, no_picture = false, mot = false;
 };
 
-/// NAME of NAME.trajectory.csv, with its folder.
+/// NAME of NAME.trajectory.csv, with the folder.
 fs::path stem(const fs::path& trajectory) {
   std::string name = trajectory.filename().string();
   for (const char* ending : {".csv", ".trajectory"})
@@ -34,7 +34,7 @@ fs::path stem(const fs::path& trajectory) {
   return trajectory.parent_path() / name;
 }
 
-/// The video to draw on; empty if none is named and none lies beside the trajectory.
+/// The video to draw on; empty if none is given and none is beside the trajectory.
 fs::path video_of(const CalibrateCommand& command, const Trajectory& trajectory) {
   if (command.video.empty()) return report::video_in(command.trajectory.parent_path(), trajectory);
   require(fs::exists(command.video), "--video {}: no such file", command.video.string());

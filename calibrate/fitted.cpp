@@ -7,8 +7,8 @@ namespace {
 
 constexpr int kPhases = 24;
 
-/// Standard deviation of a part about the pelvis, over both coordinates, at equal steps of phase
-/// from that of the middle of the clip.
+/// Standard deviation of a part relative to the pelvis, over both coordinates, at equal steps of
+/// phase from the middle of the clip.
 std::array<double, kPhases> sd_px(const fit::StrideFit& fit, const Directions& directions,
                                   BodyPart part) {
   const double period_s = fit.runner.cadence[cadence::period_s];

@@ -4,12 +4,12 @@
 
 namespace stride {
 
-/// Where the fit has the parts in every frame of the trajectory, px.
+/// Positions of the fitted parts in every frame of the trajectory, px.
 Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& model,
                          const Calibration& calibration);
 
-/// The fitted runner in the image: in every frame of `trajectory` each part that was marked in it,
-/// px. The confidence is 0.3 or less, as of points that no picture showed:
+/// The fitted runner in the image, px: in every frame of `trajectory` each part that was labelled
+/// in it. The confidence is at most 0.3, as for points that were not seen:
 ///
 ///     0.3 / (1 + (30 sd / leg)²),  sd of the part about the pelvis, leg: hip to ankle
 ///

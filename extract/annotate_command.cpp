@@ -34,7 +34,7 @@ struct Request {
   bool repair_legs = true, keys = false;
 };
 
-/// Qt aborts the whole program where it cannot reach a display; a child of ours tries it first.
+/// Qt aborts the program if it cannot open a display, so a child process tries first.
 void require_display() {
   const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
   constexpr const char* kCure =
@@ -62,8 +62,8 @@ Keypoints fresh_keypoints(const fs::path& video, const video::VideoInfo& info) {
   return keypoints;
 }
 
-/// The points of another program or of a pose model become clicks, where there are none: one step
-/// for undo.
+/// Adds the points of another program or a pose network as clicks where there are none, as one
+/// undoable edit.
 void import_clicks(const Request& request, video::FrameStore& frames,
                    annotation::AnnotationJournal& journal) {
   const bool by_model = request.pose.wanted;
@@ -103,7 +103,7 @@ void import_clicks(const Request& request, video::FrameStore& frames,
   if (!change.clicks.empty()) journal.apply(std::move(change));
 }
 
-/// What the mouse callback tells the loop below.
+/// Passed from the mouse callback to the loop below.
 struct Window {
   annotation::AnnotationSession& session;
   annotation::QtZoom& qt_zoom;

@@ -29,7 +29,7 @@ struct Request {
   pose::PoseOptions pose;
 };
 
-/// A line on stderr that is rewritten, only where somebody watches.
+/// A line on stderr that is rewritten, only on a terminal.
 void show_progress(int frame, int last) {
   if (::isatty(STDERR_FILENO))
     fmt::print(stderr, "\rframe {} of {}{}", frame, last, frame == last ? "\n" : "");
@@ -51,7 +51,7 @@ bool is_detected(const Request& request) {
   return !request.import_from.empty() || request.pose.is_users();
 }
 
-/// The points of another program or of a pose model on the frames of the video.
+/// The points of another program or a pose network on the frames of the video.
 tracking::LabelledClip detected(const Request& request) {
   require(request.import_from.empty() || !request.pose.wanted,
           "--import {} and --pose {}: give one of them", request.import_from.string(),
@@ -91,7 +91,7 @@ void report(const tracking::Tracked& tracked) {
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
-             "stride period {:.3f} s, noise of the marks {:.1f} px, flow believed on {:.0f} % of "
+             "stride period {:.3f} s, noise of the marks {:.1f} px, flow followed {:.0f} % of "
              "the unmarked points\n",
              tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
              legs.period_s, legs.noise_px, 100 * tracked.summary.inlier);

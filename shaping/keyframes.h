@@ -10,8 +10,8 @@ namespace stride {
 struct KeyframeOptions {
   int count = kKeyframesPerStride;
   std::string foot = "ankle";  // or "toe"
-  /// Makes the left leg the right one's mirror image half a stride later, as learning from mirrored
-  /// experience needs it; false keeps the runner's own asymmetry.
+  /// Makes the left leg the mirror image of the right one half a stride later, as learning from
+  /// mirrored experience requires; false keeps the runner's asymmetry.
   bool symmetric = true;
   InverseDistance function = InverseDistance::pf3;
   PotentialIndex index = PotentialIndex::time;
@@ -19,11 +19,11 @@ struct KeyframeOptions {
   double weight = 1;
 };
 
-/// What the potential compares, of a runner at one moment. `foot` is "ankle" or "toe".
+/// The pose of a sample. `foot` is "ankle" or "toe".
 Pose pose_of(const CalibratedSample& sample, std::string_view foot);
 
-/// The mean stride of a run as equally spaced keyframes: a Fourier series through all its samples,
-/// by phase. Throws Error naming `origin` if they do not cover a whole stride.
+/// The mean stride of a run as equally spaced keyframes, from a Fourier series fitted to all
+/// samples by phase. Throws Error naming `origin` if they do not cover a whole stride.
 Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions& options,
                          const std::string& origin);
 

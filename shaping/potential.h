@@ -41,11 +41,11 @@ struct Potential {
   double weight = 1;
 
   /// Φ(s, phase) ≥ 0: weight · the sum over pelvis height, two knees, two feet. Between keyframes
-  /// the target moves on a periodic cubic spline. `phase` (any real number, taken modulo 1) is not
-  /// used by the index `nearest`.
+  /// the target moves on a periodic cubic spline. `phase` (any real number, modulo 1) is ignored by
+  /// the index `nearest`.
   double operator()(const Pose& pose, double phase) const;
 
-  /// Phase after `time_s` from phase 0: the video's cadence.
+  /// Phase after `time_s` from phase 0, at the video's cadence.
   double phase_at(double time_s) const;
 
   /// The pose of the runner in the video at that phase.
@@ -56,11 +56,11 @@ struct Potential {
 InverseDistance inverse_distance(std::string_view name);
 PotentialIndex potential_index(std::string_view name);
 
-/// Throws Error naming `origin` (a file), key, value and rule where a value breaks its rule.
+/// Throws Error naming `origin` (a file), key, value and rule if a value is invalid.
 void check(const Potential& potential, const std::string& origin);
 
-/// NAME.potential.json (shaping/README.md has its keys). Errors name file, key, value and rule; a
-/// file of another version or with NaN is refused.
+/// NAME.potential.json (shaping/README.md has its keys). Errors name file, key, value and rule;
+/// other versions and NaN are refused.
 Potential load_potential(const std::filesystem::path& file);
 void save(const Potential& potential, const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFormat = "stride-potential";
 constexpr int kVersion = 1;
 
-/// A JSON object with its place in the file, so that errors can name it.
+/// A JSON object with its path in the file, for errors.
 struct Node {
   const Json& json;
   std::string file, path;

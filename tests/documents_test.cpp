@@ -1,4 +1,5 @@
-// The Markdown files: links lead somewhere, and the first page claims nothing without a source.
+// The Markdown files: links lead to something, and every number of the first page is in
+// BENCHMARK.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// The house: which room may include from which, how many units a room has, and no knots.
+// The layering: which room may include from which, how many units a room has, and no include cycles
+// of more than two units.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// The clip that ships with the project through the left half of the pipeline, against the truth
-// that it was rendered from.
+// The shipped clip through the left half of the pipeline, compared with its truth.
 #include <gtest/gtest.h>
 
 #include <cmath>

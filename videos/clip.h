@@ -10,7 +10,7 @@
 
 namespace stride::videos {
 
-/// Everything that makes a clip; the same clip gives the same frames.
+/// The definition of a clip. The same definition gives the same frames.
 struct Clip {
   std::string name, description;
   std::string character = "man";  // man, woman, veteran, game, cartoon; markers: for tests
@@ -19,33 +19,33 @@ struct Clip {
   int width_px = 640, height_px = 360;
   double rate_hz = 30;
   int frames = 96;
-  double slow_motion = 1;  // seconds of video a second of the runner
+  double slow_motion = 1;  // seconds of video per second of the runner
 
   GaitCurves gait;
   Proportions proportions;
   double first_phase = 0;
   double deviation_rad = 0;  // rms of every joint from the mean stride, slow and random
   bool to_left = false;
-  bool treadmill = false;  // the runner stays, the belt runs
+  bool treadmill = false;  // the runner stays in place, the belt moves
 
   PinholeCamera camera;  // at the start; x_m relative to the runner if it follows
   bool camera_follows = true;
-  double sway_m = 0.10;  // how far the camera lags and leads
+  double sway_m = 0.10;  // amplitude of the camera's lag
   double zoom = 0;       // growth of the focal length over the clip
 
   double shutter = 0.35;     // open part of the time between frames
-  int samples = 14;          // a pixel: through the shutter's time and the pixel's area
+  int samples = 14;          // per pixel, over the exposure and the pixel's area
   double noise_grey = 2.4;   // of the sensor, of 255
   double click_sd_px = 1.5;  // of a person's hand
   std::uint64_t click_seed = 0;
   double vignette = 0.09;  // darkening toward the corners
 
-  /// Of the runner, as every time here.
+  /// Time of the runner, as everywhere here.
   double time_s(double frame) const { return frame / (rate_hz * slow_motion); }
   double duration_s() const { return time_s(frames); }
 };
 
-/// A clip with what follows from it.
+/// The motion of a clip.
 class Motion {
  public:
   explicit Motion(const Clip& clip);

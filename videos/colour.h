@@ -21,7 +21,7 @@ inline Colour lit(const Colour& colour, double brightness) {
   return colour * static_cast<float>(brightness);
 }
 
-/// 0 below `edge`, 1 above, soft over `width`.
+/// 0 below `edge`, 1 above, with a smooth transition of `width`.
 inline double step(double x, double edge, double width) {
   const double t = std::clamp((x - edge) / width + 0.5, 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -9,8 +9,8 @@
 
 namespace stride::videos {
 
-/// What a character looks like: a skeleton dressed in patches, in the order of painting for a
-/// camera on that side of it.
+/// The appearance of a character: patches on a skeleton, in painting order for a camera on that
+/// side.
 class Costume {
  public:
   virtual ~Costume() = default;
@@ -32,10 +32,10 @@ std::unique_ptr<Costume> human_costume(std::uint64_t seed, const HumanLook& look
 /// An armoured hero, plates that shine.
 std::unique_ptr<Costume> game_costume(std::uint64_t seed);
 
-/// A drawn boy: flat colours, outlines, both legs alike.
+/// A drawn boy: flat colours, outlines, identical legs.
 std::unique_ptr<Costume> cartoon_costume();
 
-/// A disc at every body part and nothing else, to find the truth in a picture.
+/// Only a disc at every body part, to measure the truth in a picture.
 std::unique_ptr<Costume> marker_costume();
 inline constexpr double kMarkerRadius_m = 0.03;
 Colour marker_colour(BodyPart part);

@@ -24,7 +24,7 @@ struct GaitCurves {
   double period_s = 0;
   Harmonics hip_flexion_deg, knee_angle_deg, ankle_angle_deg, pelvis_tilt_deg;
   Harmonics pelvis_height_m;  // for legs of 0.857 m; only its variation is used
-  // What the sources do not tell, by eye.
+  // By eye, because the sources do not have it.
   Harmonics trunk_lean_deg;           // of the line hips → shoulders, forward positive
   Harmonics shoulder_deg, elbow_deg;  // of the right arm, flexion positive
   double squash = 0;  // the trunk is longer in flight and shorter in stance by this part

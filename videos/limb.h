@@ -10,7 +10,7 @@ namespace stride::videos {
 
 inline Eigen::Vector2d flat(const Eigen::Vector3d& p) { return {p.x(), p.y()}; }
 
-/// A patch whose axis hangs from a joint, turned forward by `angle`.
+/// A patch that hangs from a joint, rotated forward by `angle`.
 inline Patch hanging(const Eigen::Vector3d& joint, double angle, std::vector<Station> stations) {
   Patch patch;
   patch.origin = flat(joint);
@@ -21,7 +21,7 @@ inline Patch hanging(const Eigen::Vector3d& joint, double angle, std::vector<Sta
   return patch;
 }
 
-/// A patch whose axis stands upright, leaning forward by `lean`.
+/// An upright patch that leans forward by `lean`.
 inline Patch upward(const Eigen::Vector3d& from, double lean, std::vector<Station> stations) {
   Patch patch;
   patch.origin = flat(from);

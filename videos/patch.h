@@ -9,13 +9,12 @@
 
 namespace stride::videos {
 
-/// Half-widths of a body at a place along its axis, m. `front + back` > 0; one may be negative.
+/// Half-widths of a body at a position along its axis, m. `front + back` > 0; one may be negative.
 struct Station {
   double s = 0, front = 0, back = 0;
 };
 
-/// A piece of the runner: a rounded body around an axis in a plane z = const, shaded as if it were
-/// round.
+/// A part of the runner: a rounded body around an axis in a plane z = const, shaded as if round.
 struct Patch {
   Eigen::Vector2d origin;       // x, y, m
   Eigen::Vector2d axis, front;  // unit vectors

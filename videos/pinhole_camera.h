@@ -23,9 +23,9 @@ struct PinholeCamera {
   double metres_per_pixel() const { return distance_m / focal_px; }
 
   Eigen::Vector2d project(const Eigen::Vector3d& p_m) const;
-  /// Turns a pixel into the plane of the image without roll, u right, v down, px.
+  /// Removes the roll from a pixel: u right, v down, px.
   Eigen::Vector2d upright(double u_px, double v_px) const;
-  /// The point of the plane z = const that a pixel shows.
+  /// The point of the plane z = const at a pixel.
   Eigen::Vector2d on_plane(double u_px, double v_px, double z_m) const;
 };
 

@@ -61,7 +61,7 @@ std::unique_ptr<Scenery> make_scene(const Clip& clip) {
   throw Error(fmt::format("clip {}: scene '{}': is none", clip.name, clip.scene));
 }
 
-/// What lens and sensor make of the light of a frame.
+/// Applies lens and sensor to the light of a frame.
 cv::Mat developed(const cv::Mat& light, const Clip& clip, int index) {
   Random random(clip.seed * 104729 + static_cast<std::uint64_t>(index));
   cv::Mat picture(light.size(), CV_8UC3);

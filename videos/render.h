@@ -8,7 +8,7 @@
 
 namespace stride::videos {
 
-/// Frame by frame, the pictures of a clip (8-bit BGR).
+/// Renders the frames of a clip (8-bit BGR).
 class Renderer {
  public:
   explicit Renderer(const Clip& clip);

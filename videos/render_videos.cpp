@@ -13,7 +13,7 @@ namespace {
 
 using namespace stride::videos;
 
-/// How a clip is filmed otherwise than it says.
+/// Variations of a clip.
 struct Filming {
   std::string name;
   std::uint64_t seed = 0;

@@ -12,12 +12,12 @@
 
 namespace stride::videos {
 
-/// A soft patch of shadow on the ground.
+/// A soft shadow on the ground.
 struct ShadowBlob {
   double x_m = 0, z_m = 0, radius_m = 0, strength = 0;
 };
 
-/// The shadow that the runner casts under a high sun before and beside it.
+/// The runner's shadow under a high sun in front and to the side.
 std::vector<ShadowBlob> cast_shadow(const Skeleton& skeleton);
 
 /// Where the runner runs. `z` here grows toward the camera; the runner runs at z = 0.
@@ -29,17 +29,17 @@ class Scenery {
   void paint(const PinholeCamera& camera, double du, double dv,
              const std::vector<ShadowBlob>& shadow, double belt_m, cv::Mat& image) const;
 
-  /// Things that stand behind and before the runner, seen from the camera's side.
+  /// Objects behind and in front of the runner, as seen by the camera.
   virtual std::vector<Patch> behind(bool) const { return {}; }
   virtual std::vector<Patch> before(bool) const { return {}; }
 
  protected:
   virtual Colour ground(double x_m, double z_m, double belt_m) const = 0;
-  /// A wall stands at this z, up to wall_height_m.
+  /// Position of the wall; it is wall_height_m high.
   virtual double wall_z_m() const = 0;
   virtual double wall_height_m() const = 0;
   virtual Colour wall(double x_m, double y_m) const = 0;
-  /// Behind the wall: `x` along the way as seen 30 m behind it, `elevation` the tangent above the
+  /// Behind the wall: `x` along the track at 30 m behind it, `elevation` as tangent above the
   /// horizon.
   virtual Colour beyond(double x_m, double elevation) const = 0;
 };

@@ -7,8 +7,8 @@
 
 namespace stride::videos {
 
-/// A picture of the clips as they are in `folder`: a row a clip, the eight positions of one stride
-/// at which it is clicked, cut out around the runner, the clicks marked.
+/// A picture of the clips in `folder`, with a row for each: crops of the eight clicked positions of
+/// one stride, with the clicks.
 void write_sheet(const std::vector<Clip>& clips, const std::filesystem::path& folder,
                  const std::filesystem::path& picture);
 

@@ -18,8 +18,8 @@ struct Proportions {
   double hip_half_width = 0.085, ankle_half_width = 0.05, shoulder_half_width = 0.19;
 };
 
-/// Where everything of the runner is, m and rad. x the way of running, y up, z to the runner's
-/// right; index 0 right, 1 left.
+/// Positions and angles of the runner's parts, m and rad. x in the running direction, y up, z to
+/// the runner's right; index 0 right, 1 left.
 struct Skeleton {
   double phase = 0;
   double pelvis_tilt = 0;
@@ -27,7 +27,7 @@ struct Skeleton {
   Eigen::Vector3d pelvis, shoulders, head;  // the midpoint of the hips, of the shoulders
   std::array<Eigen::Vector3d, 2> hip, knee, ankle, toe, shoulder, elbow, wrist;
   double trunk_lean = 0, head_pitch = 0;
-  /// Angle of a segment from hanging straight down, forward positive; of the foot, toes up.
+  /// Angle of a segment from straight down, forward positive; of the foot, toes up.
   std::array<double, 2> thigh_angle{}, shank_angle{}, foot_angle{}, upper_arm_angle{},
       forearm_angle{};
 
@@ -46,7 +46,7 @@ Skeleton pose(const GaitCurves& gait, const Proportions& proportions, double pha
 /// Height of the lowest point of a shoe above the ground.
 double clearance(const Skeleton& skeleton, const Proportions& proportions, int side);
 
-/// What makes a gait stand on the ground with these proportions.
+/// Height and speed of a gait with these proportions.
 struct Grounding {
   double mean_height_m =
       0;                 // of the hips, so that the lowest shoe of the stride touches the ground

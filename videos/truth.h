@@ -9,7 +9,7 @@
 
 namespace stride::videos {
 
-/// Where the parts are in every frame, px, by projection.
+/// Projected positions of the parts in every frame, px.
 Trajectory truth_px(const Clip& clip);
 
 /// The same in metres with the joint angles: `# stride truth 1`. Metadata: source, period_s,
@@ -19,8 +19,8 @@ Trajectory truth_px(const Clip& clip);
 /// <part>_x, <part>_y of every part from the midpoint of the hips, x the way of running, y up.
 Table truth_m(const Clip& clip);
 
-/// The clicks that a person would make at the paper's rate: four positions a half step, eight a
-/// stride, each clip.click_sd_px off; the required parts and the toes.
+/// Simulated clicks at the paper's rate, four positions a half step, eight a stride, with normal
+/// noise of clip.click_sd_px; the required parts and the toes.
 Keypoints clicks(const Clip& clip);
 
 /// Writes NAME.truth.csv, NAME.truth_m.csv and NAME.keypoints.json beside the video.

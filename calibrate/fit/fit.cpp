@@ -14,20 +14,20 @@ namespace {
 
 constexpr double kCoarse = 1e-4, kFine = 1e-9;  // relative decrease of the cost
 
-/// Akaike's information criterion, which predicts as leaving marks out one by one does: the cost at
-/// one and the same noise, and one for each parameter.
+/// Akaike's information criterion, an approximation of leave-one-out cross-validation: the cost at
+/// a fixed noise level, plus one for each parameter.
 double information(const Solution& solution, const StrideFit& fit) {
   return 2 * solution.cost + 2 * 3 * (2 * fit.harmonics + 1);
 }
 
-/// Frames in a sixth of a stride: what lasts longer is a harmonic that is missing, not noise.
+/// Frames in a sixth of a stride: longer correlations are a missing harmonic, not noise.
 double longest_correlation(const StrideFit& fit, const Marks& observations) {
   const double frames_per_s =
       static_cast<double>(observations.u_s.size() - 1) / observations.duration_s;
   return std::max(1.0, fit.runner.cadence[cadence::period_s] * frames_per_s / 6);
 }
 
-/// Fit and noise in turn, until the noise changes no more.
+/// Alternates fit and noise estimate until the noise converges.
 void settle(const FitProblem& problem, StrideFit& fit, Loss loss, int rounds, double tolerance) {
   for (int round = 0; round < rounds; ++round) {
     const double before = fit.sigma_px;
@@ -44,7 +44,7 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
   FitProblem problem{observations, model, Directions(model), options, {}};
   StrideFit best;
   best.failure = "no stride repeats: too few marks of pelvis, knees and ankles";
-  // Several starts: a stride that is right explains more than a third of it or three of them.
+  // Several initial guesses: the right period explains more than a third of it or three of it.
   for (const PeriodGuess& guess : guess_periods(observations, 3)) {
     StrideFit fit = start(problem, guess);
     settle(problem, fit, Loss::cauchy, 2, kCoarse);
@@ -54,7 +54,8 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
 
   settle(problem, best, Loss::tukey, 3, kCoarse);
   if (options.harmonics == 0) {
-    // From many to few at the noise of the richest: what each harmonic buys must outweigh it.
+    // From many harmonics to few, at the noise of the largest model: each harmonic must lower the
+    // criterion.
     StrideFit richest = best;
     richest.harmonics = max_harmonics(observations, best.runner);
     settle(problem, richest, Loss::tukey, 3, kCoarse);
@@ -66,7 +67,7 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
       if (value < least) best = fit, least = value;
     }
   }
-  // The roll of the camera shows in the feet that stand: they keep their height.
+  // The stance feet determine the camera's roll, because they keep their height.
   for (int round = 0; round < 2; ++round) {
     best.vertical_oscillation = measure_vertical_oscillation(best, observations);
     const BodyPart part = best.toes_seen ? BodyPart::toe_r : BodyPart::ankle_r;

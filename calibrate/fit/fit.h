@@ -4,7 +4,7 @@
 
 namespace stride::fit {
 
-/// The main path. Never throws for what a clip shows.
+/// The main path. Never throws because of a clip's content.
 StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
                      const FitOptions& options = {});
 

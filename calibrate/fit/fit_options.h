@@ -6,12 +6,12 @@
 
 namespace stride::fit {
 
-/// What a user may know about the runner; at most one is given.
+/// The known size of the runner; at most one member is set.
 struct RunnerSize {
   std::optional<double> height_m, leg_m, metres_per_pixel;
 };
 
-/// Throws Error if two are given, or one is not that of a person or a character.
+/// Throws Error if two are set, or one is implausible for a person or a character.
 FitOptions fit_options(const RunnerSize& size);
 
 }  // namespace stride::fit

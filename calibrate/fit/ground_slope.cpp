@@ -21,7 +21,7 @@ std::optional<Prior> ground_roll(const Trajectory& trajectory) {
     }
   if (displacements.size() < 8 || std::abs(passed.x()) < 0.5 * trajectory.width_px)
     return std::nullopt;
-  // y = x tan φ, and the camera's own ups and downs; Cauchy's weights against slipped flow.
+  // y = x tan φ plus vertical camera motion; Cauchy's weights against outliers of the flow.
   double tangent = 0, scale = 1, xx = 0;
   for (int iteration = 0; iteration < 20; ++iteration) {
     double xy = 0;
@@ -37,7 +37,7 @@ std::optional<Prior> ground_roll(const Trajectory& trajectory) {
     tangent = xy / std::max(xx, 1e-9);
     scale = std::max(kSigmaPerMedian * median(left), 0.02);
   }
-  // Sway lasts some frames: five neighbours count as one.
+  // Camera sway is correlated over frames: five neighbours count as one.
   const double sd = std::max(kLeast, std::sqrt(5.0 / xx) * scale);
   if (sd > kSure) return std::nullopt;
   return Prior{-std::atan(tangent), sd};

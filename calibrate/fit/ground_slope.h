@@ -7,9 +7,10 @@
 
 namespace stride::fit {
 
-/// The roll of the ground in the image (mean positive where it rises to the right): a marked floor
-/// line, else the way along which the background passes a camera that goes along. None if the
-/// camera stands, or if the background passes by less than half a frame or not within a degree.
+/// Roll of the ground in the image (positive where it rises to the right), from a labelled floor
+/// line, else from the direction in which the background passes a camera that follows. None if the
+/// camera is at rest, if the background moves by less than half a frame, or if its direction is
+/// uncertain by more than a degree.
 std::optional<Prior> ground_roll(const Trajectory& trajectory);
 
 }  // namespace stride::fit

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr int kGuessHarmonics = 4;
 
-/// A mark relative to the mark of the pelvis in the same frame, with the leg it belongs to.
+/// A point relative to the pelvis on the same frame, with its leg.
 struct Relative {
   double u_s;
   int side;
@@ -73,7 +73,7 @@ CurveFit fit_curve(const std::vector<Relative>& marks, double period_s, int harm
   return fit;
 }
 
-/// Median distance of the marks from their own median: what a period has to explain.
+/// Median distance of the points from their median, which a period has to explain.
 double spread(const std::vector<Relative>& marks) {
   std::vector<double> x, y, distance;
   for (const Relative& mark : marks) {

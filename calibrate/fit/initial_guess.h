@@ -7,19 +7,18 @@
 
 namespace stride::fit {
 
-/// A stride found in the marks without any model: knees and ankles from the pelvis as Fourier
-/// series of one period, left = right half a cycle later.
+/// A stride fitted to the points without a body model: knees and ankles relative to the pelvis as
+/// Fourier series of one period, left = right half a cycle later.
 struct PeriodGuess {
   double period_s = 0;
-  double explained = 0;  // part of the robust variance of ankles and knees that the period explains
+  double explained = 0;  // share of the robust variance explained by the period
 };
 
-/// Candidates, best first; at most `count`, each at least 15 % from the others. Empty if there are
-/// too few marks. Deterministic: every period from 0.2 s to the length of the clip is tried.
+/// Candidates, best first; at most `count`, at least 15 % apart. Empty if there are too few points.
+/// Deterministic: tries every period from 0.2 s to the length of the clip.
 std::vector<PeriodGuess> guess_periods(const Marks& observations, int count);
 
-/// Limbs and angles for a period by linear least squares: where the fit starts. `leg_m` sets the
-/// scale.
+/// Initial guess of limbs and angles for a period, by linear least squares. `leg_m` sets the scale.
 Runner guess_runner(const Marks& observations, const SagittalModel& model, double period_s,
                     double leg_m);
 

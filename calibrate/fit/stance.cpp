@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kPhases = 96;
 
-/// The longest run of phases that hold, of a circle of them: first, and one behind the last.
+/// The longest cyclic run of phases that satisfy a condition: first, and one past the last.
 std::pair<int, int> longest_run(const std::array<bool, kPhases>& holds) {
   std::pair<int, int> longest{0, 0};
   for (int begin = 0; begin < kPhases; ++begin) {
@@ -20,8 +20,8 @@ std::pair<int, int> longest_run(const std::array<bool, kPhases>& holds) {
   return longest;
 }
 
-/// How far a part moves back from one phase to the next, by least squares over a run of phases:
-/// where it lands and rolls off counts least, and so does the noise of any one phase.
+/// Displacement of a part backwards from one phase to the next, by least squares over a run of
+/// phases, which gives landing, push-off and the noise of single phases little weight.
 double displacement_back_m(const std::vector<Eigen::Vector2d>& path, std::pair<int, int> phases) {
   const double middle = 0.5 * (phases.first + phases.second - 1);
   double sum_x = 0, squares = 0;
@@ -35,7 +35,7 @@ double displacement_back_m(const std::vector<Eigen::Vector2d>& path, std::pair<i
 }  // namespace
 
 Stance find_stance(const StrideFit& fit, const Directions& directions, BodyPart part) {
-  // Heights above the lowest, of a leg's length: what surely stands, and what tells the speed.
+  // Heights above the lowest in leg lengths: certain stance, and the phases used for the speed.
   constexpr double kStands = 0.025, kLow = 0.05;
   const Runner& r = fit.runner;
   const int side = side_of(part);

@@ -6,10 +6,10 @@
 
 namespace stride::fit {
 
-/// When a foot of the fitted runner stands: its toe (or ankle) is low and goes back.
+/// Stance of the fitted runner: the toe (or ankle) is low and moves backwards.
 struct Stance {
   std::vector<double> phases;  // equally spaced, of the fit
-  double speed_m_s = 0;        // of the part backwards from the pelvis; 0 if nothing stands
+  double speed_m_s = 0;        // of the part backwards relative to the pelvis; 0 without stance
 };
 
 Stance find_stance(const StrideFit& fit, const Directions& directions, BodyPart part);

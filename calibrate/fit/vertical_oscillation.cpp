@@ -30,7 +30,7 @@ VerticalOscillation measure_vertical_oscillation(const StrideFit& fit, const Mar
   const Runner& runner = fit.runner;
   const auto n = static_cast<Eigen::Index>(observations.u_s.size());
   const double strides = observations.duration_s / runner.cadence[cadence::period_s];
-  // Slow: a straight line, and waves of at most 0.9 of the stride's frequency.
+  // Slow motion: a straight line, and sines of at most 0.9 of the stride frequency.
   const int waves = static_cast<int>(1.8 * strides);
   Eigen::MatrixXd rows(n, 4 + 2 + waves);
   Eigen::VectorXd height(n);

@@ -4,8 +4,8 @@
 
 namespace stride::fit {
 
-/// Tells the pelvis' own rise and fall from the camera's movement: the latter is slow, the former
-/// repeats twice a stride. Robust linear least squares on the pelvis' height in the image.
+/// Separates the rise and fall of the pelvis, which repeats twice a stride, from slow camera
+/// motion, by robust linear least squares on the pelvis' height in the image.
 VerticalOscillation measure_vertical_oscillation(const StrideFit& fit, const Marks& observations);
 
 }  // namespace stride::fit

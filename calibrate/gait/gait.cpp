@@ -14,13 +14,13 @@ constexpr int kPhases = 200;
 
 double fraction(double phase) { return phase - std::floor(phase); }
 
-/// Height of the pelvis of the runner on legs of the model.
+/// Pelvis height of the runner on the model's legs.
 double to_model(const fit::StrideFit& fit, const SagittalModel& model) {
   return (model.thigh_m() + model.shank_m()) /
          (fit.runner.body[body::thigh] + fit.runner.body[body::shank]);
 }
 
-/// Mean of the right and the left leg at a phase of their own cycle.
+/// Mean of right and left leg at a phase of their own cycle.
 LegAngles<double> mean_leg(const fit::StrideFit& fit, double phase) {
   const Runner& r = fit.runner;
   return {evaluate_series(r.hip.data(), fit.harmonics, phase),
@@ -65,7 +65,7 @@ void find_foot_strike(const fit::StrideFit& fit, const HumanRunning& human, Gait
   }
 }
 
-/// Height of the foot on the model, by phase after its own strike.
+/// Height of the model's foot by phase after its own strike.
 struct FootPath {
   std::vector<double> height_m;            // of the lowest point, above the lowest of the stride
   std::vector<double> toe_x_m, ankle_x_m;  // before the hips
@@ -89,7 +89,8 @@ FootPath foot_path(const fit::StrideFit& fit, const SagittalModel& model, double
   return path;
 }
 
-/// When the foot moves back under the runner, from farthest before the hips to farthest behind.
+/// The time in which the foot moves back under the runner, from its foremost to its rearmost
+/// position.
 struct Sweep {
   double begin = 0, length = 0;  // phase after the strike; part of the stride
 };
@@ -102,8 +103,8 @@ Sweep sweep(const FootPath& path) {
   return {begin, fraction(at(std::ranges::min_element(path.toe_x_m), path.toe_x_m) - begin)};
 }
 
-/// A runner's pelvis is lowest while the foot is below it, as on a spring; a walker's is highest,
-/// as on a stilt. That holds for any size and frame rate.
+/// Walking: the pelvis is highest over the stance foot, as on a stilt. Running: it is lowest there,
+/// as on a spring. This holds for any size and frame rate.
 bool walks(const fit::StrideFit& fit, const FootPath& path, double foot_strike) {
   const Sweep foot = sweep(path);
   const Eigen::Vector4d w =
@@ -111,8 +112,8 @@ bool walks(const fit::StrideFit& fit, const FootPath& path, double foot_strike) 
   return w.head<2>().dot(fit.vertical_oscillation.c.head<2>()) > 0;
 }
 
-/// The part of the stride in which a foot stands. A runner's: until it, having stood, is 3 cm above
-/// where it stood. A walker, who swings it lower, moves it back as long as it stands.
+/// Duty factor. A runner's stance ends when the foot is 3 cm above its height in stance. A walker
+/// swings the foot lower; there stance lasts while the foot moves back.
 double duty(const FootPath& path, bool walks) {
   constexpr double kLifted = 0.03;
   if (walks) return sweep(path).length;
@@ -134,7 +135,7 @@ void add_deviations(const fit::StrideFit& fit, const SagittalModel& model, doubl
       });
   for (int part = 0; part < kBodyPartCount; ++part) sample.sd_m[part] = sd.segment<2>(2 * part);
   const Eigen::Vector4d w = fit::VerticalOscillation::weights(phase);
-  // The mean height hangs on the lowest foot: as uncertain as an ankle's height.
+  // The mean height follows from the lowest foot, so it is as uncertain as an ankle's height.
   const double height_variance = w.dot(fit.vertical_oscillation.covariance * w) +
                                  std::pow(sample.sd_m[index(BodyPart::ankle_r)].y(), 2);
   sample.pelvis_height_sd_m = std::sqrt(height_variance);
@@ -185,8 +186,8 @@ Gait analyse_gait(const fit::StrideFit& fit, const SagittalModel& model) {
   gait.duty = duty(path, gait.walks);
   gait.pelvis_height_m = -path.lowest_m;
   gait.vertical_oscillation_m = to_model(fit, model) * fit.vertical_oscillation.peak_to_peak_m();
-  // Heel strike and push-off turn the toe one way and the other: the mean over stance is nearer
-  // than any one phase of it.
+  // Heel strike and push-off rotate the toe in opposite directions, so the mean over stance is
+  // better than any single phase.
   for (const BodyPart toe : {BodyPart::toe_r, BodyPart::toe_l})
     gait.speed_m_s += 0.5 * fit::find_stance(fit, Directions(model), toe).speed_m_s;
   return gait;

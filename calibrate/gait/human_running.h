@@ -5,8 +5,8 @@
 
 namespace stride::gait {
 
-/// How people run: sagittal angles against the stride from foot strike, rad, the mean of measured
-/// runners and the band of their strides (calibrate/data/human_running.csv names them).
+/// Sagittal angles of measured runners against the stride from foot strike, rad: mean and range of
+/// their strides (calibrate/data/human_running.csv names them).
 struct HumanRunning {
   struct Joint {
     std::vector<double> mean, low, high;  // at `phase`

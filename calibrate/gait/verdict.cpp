@@ -13,7 +13,7 @@ namespace stride::gait {
 namespace {
 
 constexpr double kPriorOnlyConfidence =
-    0.3;  // confidence: at most that, only the tracker's prior speaks
+    0.3;  // confidence up to which a point comes from the tracker's prior alone
 
 /// The distance that holds 90 % of the values.
 double spread(std::vector<double> values) {
@@ -22,7 +22,7 @@ double spread(std::vector<double> values) {
   return values[values.size() * 95 / 100] - values[values.size() * 5 / 100];
 }
 
-/// A coordinate of one part from another, where both are marked.
+/// A coordinate of one part relative to another, where both are labelled.
 std::vector<double> differences(const Trajectory& trajectory, BodyPart part, BodyPart from,
                                 int axis) {
   std::vector<double> values;
@@ -61,7 +61,7 @@ void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
   }
 }
 
-/// How far the ankles swing, in legs: a runner's reach two thirds fore and aft.
+/// Amplitude of the ankles in leg lengths; a runner's is about two thirds fore and aft.
 void judge_view(const Trajectory& trajectory, Verdict& verdict) {
   double leg = 0, below = 0, fore_aft = 0, vertical = 0;
   for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
@@ -87,8 +87,8 @@ void judge_view(const Trajectory& trajectory, Verdict& verdict) {
                     100 * fore_aft / leg));
 }
 
-/// Whether the background moves here as in neither of the frames beside, by two fifths of a leg; or
-/// is lost.
+/// Whether the background's step differs from both neighbouring ones by two fifths of a leg, or is
+/// lost.
 bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
   const auto& frames = trajectory.frames;
   if (!frames[i].camera_px.allFinite()) return true;
@@ -98,8 +98,8 @@ bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
   return i >= 2 && i + 1 < frames.size() && leaps(i - 1) && leaps(i + 1);
 }
 
-/// Frames whose background has nothing to do with that of the frame before. Where there are many,
-/// it cannot be followed and says nothing.
+/// Frames whose background is unrelated to the previous frame's. Many of them mean that the
+/// background cannot be followed, and say nothing.
 void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
   std::vector<int> changes;
   for (std::size_t i = 1; i < trajectory.frames.size(); ++i)
@@ -125,8 +125,7 @@ void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
   }
 }
 
-/// The longest time for which nothing is seen: no mark at all, or none in which the picture was
-/// believed.
+/// The longest time in which nothing is seen: no point at all, or only points from the prior.
 void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
   constexpr double kLongest = 1.0 / 3;  // of a stride
   const TrajectoryFrame* last = nullptr;
@@ -148,7 +147,7 @@ void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict)
                     gap[0]->frame, gap[1]->frame));
 }
 
-/// Which part has the most marks that were not believed.
+/// The part with the most outliers.
 std::string worst_part(const fit::Marks& observations, const fit::StrideFit& fit) {
   std::array<int, kBodyPartCount> bad{};
   for (std::size_t i = 0; i < fit.marks.size(); ++i)
@@ -157,7 +156,7 @@ std::string worst_part(const fit::Marks& observations, const fit::StrideFit& fit
   return fmt::format("{} in {} frames", name(kBodyParts[worst]), bad[worst]);
 }
 
-/// Free fall tells the time: the pelvis' greatest downward acceleration, in g.
+/// The pelvis' greatest downward acceleration in g: free fall measures time.
 double apparent_gravity(const fit::StrideFit& fit) {
   const double turn = 4 * std::numbers::pi / fit.runner.cadence[cadence::period_s];
   double least = 0;

@@ -10,10 +10,10 @@
 
 namespace stride::gait {
 
-/// Whether a clip can be explained as one runner seen from the side, and what is odd about it.
+/// Whether a clip can be explained as one runner in side view, and what is unusual about it.
 struct Verdict {
   bool refused = false;
-  std::vector<std::string> reasons;  // each with what to do about it
+  std::vector<std::string> reasons;  // each with its cure
 
   void refuse(std::string reason);
   void note(std::string reason) { reasons.push_back(std::move(reason)); }
@@ -21,11 +21,11 @@ struct Verdict {
   std::string text() const;
 };
 
-/// What can be seen without a fit: parts that are missing, a clip that stands on its head, somebody
-/// who stands or comes towards the camera.
+/// Checks before the fit: missing parts, a clip upside down, somebody who stands or runs towards
+/// the camera.
 Verdict judge_marks(const Trajectory& trajectory);
 
-/// What the fit shows; adds to `verdict`.
+/// Checks of the fit; adds to `verdict`.
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
                const fit::StrideFit& fit, const Gait& gait, Verdict& verdict);
 

@@ -24,7 +24,7 @@ struct Coordinate {
   std::string name;
   bool rotational = true;  // rad, else m
   double default_value = 0, default_speed = 0;
-  double range_min = -10, range_max = 10;  // rad or m; limits moving path points, not the motion
+  double range_min = -10, range_max = 10;  // rad or m; clamps moving path points, not the motion
   bool clamped = false, locked = false;
 };
 
@@ -89,7 +89,7 @@ struct Muscle {
   double KshapeActive = 0.45, KshapePassive = 5, Af = 0.25, Flen = 1.4;
   double fv_linear_extrap_threshold = 0.95;
   double maximum_pennation_angle_rad = 1.4706289056333368;  // acos(0.1)
-  std::optional<double> default_fiber_length_m;  // of the file; none: OpenSim's 0.1 m (O1)
+  std::optional<double> default_fiber_length_m;  // if the file has one; else OpenSim's 0.1 m
   double default_activation = 0.05;
   std::vector<PathPoint> path;
 };
@@ -101,7 +101,7 @@ struct ContactSphere {
   double radius_m = 0;
 };
 
-/// The half-space y ≤ height of the ground: the only orientation that is understood.
+/// The half-space y ≤ height of the ground. Other orientations are refused.
 struct ContactPlane {
   std::string name;
   double height_m = 0;
@@ -125,7 +125,7 @@ struct CoordinateLimit {
   double damping = 0.001, transition = 0.1;
 };
 
-/// An OpenSim model as plain data, in file order: SI and radians except where OpenSim itself uses
+/// An OpenSim model as plain data, in file order. SI units and radians, except where OpenSim uses
 /// degrees.
 struct Model {
   std::string name, credits;
@@ -146,11 +146,11 @@ struct Model {
 };
 
 /// Reads an OpenSim model, document versions 30000 (joints inside bodies) and 40000 (sockets and
-/// frames). Whatever would change the motion and is not understood is an Error that names file,
-/// line and element.
+/// frames). Throws Error with file, line and element for anything unsupported that would change the
+/// motion.
 Model load_osim(const std::filesystem::path& file);
 
-/// The model for a person: what it consists of, with its units.
+/// A readable summary of the model, with units.
 std::string describe(const Model& model);
 
 /// `calibrate/models/gait9dof18musc.osim`, the model of "Learning to Run".

@@ -14,7 +14,7 @@
 
 namespace stride::osim {
 
-/// The text and the tree of an OpenSim document; both outlive the elements that point into them.
+/// Text and tree of an OpenSim document. It must outlive the elements that refer to it.
 struct OsimDocument {
   explicit OsimDocument(const std::filesystem::path& file);
 
@@ -22,8 +22,7 @@ struct OsimDocument {
   pugi::xml_document tree;
 };
 
-/// An element of an OpenSim document that knows where it stands, so that every complaint names file
-/// and line.
+/// An element of an OpenSim document. Its errors name file and line.
 class OsimElement {
  public:
   OsimElement(const OsimDocument& document, pugi::xml_node node)
@@ -36,21 +35,19 @@ class OsimElement {
   /// Throws Error "FILE:LINE: <tag name="...">: what".
   [[noreturn]] void fail(std::string_view what) const;
 
-  /// The child of that tag; false if there is none.
+  /// The child with that tag, or an element that converts to false.
   OsimElement child(const char* tag) const { return {*document_, node_.child(tag)}; }
   OsimElement need(const char* tag) const;
   std::vector<OsimElement> children() const;
-  /// The elements of a set: <tag><objects>…</objects></tag>, or <tag>…</tag>; none if it is absent.
+  /// The elements of a set, <tag><objects>…</objects></tag> or <tag>…</tag>; none if it is absent.
   std::vector<OsimElement> objects(const char* tag) const;
-  /// A property that is an object: <tag><Type/></tag>, or <Type name="tag"/>, as version 4 writes
-  /// it.
+  /// A property that is an object: <tag><Type/></tag>, or <Type name="tag"/> (version 4).
   OsimElement object(const char* tag) const;
 
-  /// Fails at the first child that is neither among `read` nor known to leave the motion alone
-  /// (appearance, notes, bookkeeping of the OpenSim application).
+  /// Fails at the first child that is neither in `read` nor known to have no effect on the motion
+  /// (appearance, notes, data of the OpenSim application).
   void only(const std::vector<std::string_view>& read) const;
-  /// Fails unless the sets are empty or absent: things that change the motion and are not
-  /// understood.
+  /// Fails unless the sets are empty or absent; they would change the motion and are not supported.
   void none_of(std::initializer_list<const char*> sets) const;
 
   std::string text() const;

@@ -19,21 +19,20 @@ struct SplineValue {
   double value = 0, first = 0, second = 0;  // and derivatives by x
 };
 
-/// The coefficients as OpenSim's SimmSpline has them. SIMM took Forsythe, Malcolm and Moler's
-/// spline (1977, §4.4): at either end the third derivative is that of the cubic through the four
-/// outermost points. A single point is a constant, two are a line.
+/// The coefficients of OpenSim's SimmSpline, which is that of Forsythe, Malcolm and Moler (1977,
+/// §4.4): the third derivative at either end is that of the cubic through the four outermost
+/// points. A single point is a constant, two are a line.
 SplineCoefficients spline_coefficients(const SimmSpline& spline);
 
-/// Index of the polynomial that holds at x; -1 before the first point, the last index after the
-/// last.
+/// Index of the polynomial at x; -1 before the first point, the last index after the last point.
 inline int spline_interval(const SplineCoefficients& spline, double x) {
   if (x < spline.x.front()) return -1;
   const auto after = std::upper_bound(spline.x.begin(), spline.x.end(), x);
   return static_cast<int>(after - spline.x.begin()) - 1;
 }
 
-/// The value at x whose plain number is `x_value`; T is double, or a type of automatic
-/// differentiation such as ceres::Jet.
+/// The value at x. `x_value` is x as a double; T is double or an automatic-differentiation type
+/// such as ceres::Jet.
 template <typename T>
 T evaluate(const SplineCoefficients& spline, const T& x, double x_value) {
   const int i = spline_interval(spline, x_value);
@@ -47,7 +46,7 @@ inline double evaluate(const SplineCoefficients& spline, double x) {
   return evaluate(spline, x, x);
 }
 
-/// The same for a ceres::Jet, whose plain number is its member `a`.
+/// The same for a ceres::Jet, whose value is its member `a`.
 template <typename Jet>
 auto evaluate(const SplineCoefficients& spline, const Jet& x) -> decltype(x.a, Jet(x)) {
   return evaluate(spline, x, x.a);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Parts of the stride in which an angle lies outside the band of measured runners.
+/// Intervals of the stride in which an angle is outside the range of measured runners.
 std::string outside_band(const fit::StrideFit& fit, const gait::Gait& gait) {
   const gait::HumanRunning human = gait::load_human_running();
   const Runner& r = fit.runner;
@@ -69,7 +69,7 @@ std::string residuals_by_part(const Calibration& c) {
     const int i = index(part);
     if (marks[i] == 0) continue;
     const double rms = std::sqrt(sum[i] / std::max(marks[i] - outliers[i], 1.0));
-    text += fmt::format("  {:<8} {:5.0f} marks  {:6.2f} px rms  {:5.1f} cm  {:4.0f} not believed\n",
+    text += fmt::format("  {:<8} {:5.0f} marks  {:6.2f} px rms  {:5.1f} cm  {:4.0f} outliers\n",
                         name(part), marks[i], rms, 100 * rms * c.run.metres_per_pixel, outliers[i]);
   }
   return text;
@@ -104,7 +104,7 @@ std::string report_text(const Trajectory& trajectory, const SagittalModel& model
        r.body[body::thigh], r.body[body::shank], leg, model.thigh_m(), model.shank_m());
   line("pelvis    {:.3f} m high on the model, rises and falls by {:.0f} mm", c.gait.pelvis_height_m,
        1000 * c.gait.vertical_oscillation_m);
-  line("fit       {} harmonics, {:.2f} px rms ({:.1f} cm), {:.1f} % of the marks not believed",
+  line("fit       {} harmonics, {:.2f} px rms ({:.1f} cm), {:.1f} % of the marks are outliers",
        c.fit.harmonics, c.fit.rms_px, 100 * c.run.rms_m, 100 * c.fit.outlier_fraction);
   text += "marks\n" + residuals_by_part(c);
   text += "angles against measured runners at 3.8 to 4 m/s";

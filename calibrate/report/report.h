@@ -7,13 +7,13 @@
 
 namespace stride::report {
 
-/// What was found out about a clip, for a person: verdict, stride, camera, runner, residuals.
+/// The result as text: verdict, stride, camera, runner, residuals.
 std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
                         const Calibration& calibration);
 
-/// Draws, as SVG: the keyframes on the frames of the video (on nothing, if `video` is empty), marks
-/// against the fit with its 95 % bands over the clip and over the stride, and the angles against
-/// the band of measured runners. Throws Error if gnuplot cannot be run.
+/// Draws, as SVG: the keyframes on frames of the video (on white if `video` is empty); labelled
+/// points and the fit with 95 % bands over the clip and over the stride; the angles and the range
+/// of measured runners. Throws Error if gnuplot cannot be run.
 void draw_report(const Trajectory& trajectory, const SagittalModel& model,
                  const Calibration& calibration, const std::filesystem::path& video,
                  const std::filesystem::path& file);

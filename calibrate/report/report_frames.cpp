@@ -17,8 +17,8 @@ namespace {
 const cv::Scalar kRight(34, 59, 214), kLeft(200, 110, 20), kMark(255, 255, 255), kEdge(30, 30, 30);
 constexpr int kSubpixelBits = 4;
 
-/// Index into Trajectory::frames of the frame that is nearest to each keyframe, of the strides in
-/// the middle if there are several.
+/// Index into Trajectory::frames of the frame nearest to each keyframe, near the middle of the clip
+/// if there are several.
 std::array<int, kReportKeyframes> nearest_frames(const Calibration& c) {
   std::array<int, kReportKeyframes> nearest{};
   const double* cadence = c.fit.runner.cadence.data();
@@ -35,7 +35,7 @@ std::array<int, kReportKeyframes> nearest_frames(const Calibration& c) {
   return nearest;
 }
 
-/// One tile: a window of the frame around the pelvis, and where its pixels are.
+/// One tile: a window of the frame around the pelvis, and its transform.
 class Tile {
  public:
   Tile(const cv::Mat& frame, const Eigen::Vector2d& middle, double scale, cv::Mat tile)
@@ -79,7 +79,7 @@ void draw_runner(const TrajectoryFrame& fitted, const TrajectoryFrame& labelled,
   const auto left = [&] {
     leg({BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l}, kLeft);
   };
-  // Whoever faces right shows his right leg in front.
+  // The right leg of a runner who faces right is in front.
   if (to_left)
     right(), left();
   else

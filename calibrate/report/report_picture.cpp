@@ -1,4 +1,4 @@
-// The picture of the report, drawn by gnuplot from data given in its script.
+// The picture of the report, drawn by gnuplot from data in the script.
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
@@ -46,8 +46,8 @@ constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r, BodyPart::ankle_r, B
 
 double percent(double phase) { return 100 * (phase - std::floor(phase)); }
 
-/// Every mark of a part from the fitted pelvis, in axes of the ground, px in the middle of the
-/// clip: time, % of the leg's own stride, x, y, whether it was not believed.
+/// Every labelled point of a part relative to the fitted pelvis, in axes of the ground, px at the
+/// middle of the clip: time, % of the leg's own stride, x, y, outlier.
 std::string marks(const Calibration& c, BodyPart part) {
   const Runner& r = c.fit.runner;
   Block points(fmt::format("{}_marks", name(part)));
@@ -65,8 +65,8 @@ std::string marks(const Calibration& c, BodyPart part) {
   return points.end();
 }
 
-/// Where the fit has a part, from the pelvis in axes of the ground, px in the middle of the clip:
-/// how large the runner is does not matter there.
+/// Position of a fitted part relative to the pelvis, in axes of the ground, px at the middle of the
+/// clip; independent of the runner's size.
 Eigen::Vector2d fitted(const fit::StrideFit& fit, const Directions& directions, BodyPart part,
                        double phase) {
   const Runner& r = fit.runner;
@@ -123,7 +123,7 @@ std::string poses(const Calibration& c) {
   return right.end() + left.end() + trunk.end();
 }
 
-/// Hip, knee and ankle over the stride with their 95 % bands, and the band of measured runners.
+/// Hip, knee and ankle over the stride with 95 % bands, and the range of measured runners.
 std::string angles(const Calibration& c) {
   const gait::HumanRunning human = gait::load_human_running();
   Block mean("angles"), band("band");
@@ -159,7 +159,7 @@ set grid ytics lc rgb '#eeeeee' lt 1
 set multiplot
 )";
 
-/// The model at the keyframes, where there is no video to draw on.
+/// The model at the keyframes, if there is no video.
 constexpr const char* kPoses = R"(
 unset key; unset tics; unset border; unset grid
 set lmargin 2; set rmargin 1; set tmargin 0; set bmargin 1
@@ -175,7 +175,7 @@ constexpr const char* kTime = R"(
 set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb '#444444'
 set lmargin 8; set rmargin 2; set origin 0,0.605; set size 1,0.165
 set xlabel 'time, s' offset 0,0.7; set ylabel 'ankle forward, px' offset 1,0; set xrange [*:*] noextend
-plot $ankle_r_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#e39a8c' notitle,      $ankle_l_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#93b4dc' notitle,      $ankle_r_time u 1:2 w l ls 1 t 'right leg', $ankle_l_time u 1:2 w l ls 2 t 'left leg',      $ankle_r_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' t 'not believed',      $ankle_l_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' notitle
+plot $ankle_r_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#e39a8c' notitle,      $ankle_l_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#93b4dc' notitle,      $ankle_r_time u 1:2 w l ls 1 t 'right leg', $ankle_l_time u 1:2 w l ls 2 t 'left leg',      $ankle_r_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' t 'outlier',      $ankle_l_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' notitle
 unset key
 set xtics 0,25,100 nomirror; set xrange [0:100]; set yrange [*:*]
 )";
@@ -222,7 +222,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Runs gnuplot on a script; its complaints become the error.
+/// Runs gnuplot on a script. Throws Error with gnuplot's message.
 void run_gnuplot(const std::string& script) {
   std::FILE* pipe = ::popen("gnuplot 2>/dev/null", "w");
   require(pipe != nullptr, "gnuplot cannot be started: install the package gnuplot-nox");

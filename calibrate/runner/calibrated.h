@@ -17,18 +17,18 @@ inline constexpr std::array<const char*, 9> kCoordinateNames{
     "pelvis_tilt",   "pelvis_tx",     "pelvis_ty",    "hip_flexion_r", "knee_angle_r",
     "ankle_angle_r", "hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
 
-/// The model at one moment. Axes of the ground: x forward (the way of running, whichever way the
-/// video shows), y up.
+/// The model in one frame. Axes of the ground: x in the running direction, whichever way the video
+/// shows, y up.
 struct CalibratedSample {
   double time_s = 0;
-  double phase = 0;  // of the stride, [0, 1); 0 = right foot strike where that is known
+  double phase = 0;                     // of the stride, [0, 1); 0 = right foot strike if known
   std::array<double, 9> coordinates{};  // kCoordinateNames; pelvis_ty above the ground
   double pelvis_height_sd_m = std::numeric_limits<double>::quiet_NaN();
-  /// p_PK of every part of the model: from the model's pelvis origin P (7.1 cm before and 6.6 cm
-  /// above the hips), in axes of the ground, not of the tilting pelvis, m. Knee: origin of tibia;
-  /// ankle: of talus; toe: of toes; hip: of femur; head: of head. `pelvis` is (0, 0).
+  /// p_PK of every part of the model: from the model's pelvis origin P (7.1 cm in front of and 6.6
+  /// cm above the hips), in axes of the ground, not of the tilting pelvis, m. Knee: origin of
+  /// tibia; ankle: of talus; toe: of toes; hip: of femur; head: of head. `pelvis` is (0, 0).
   std::array<Eigen::Vector2d, kBodyPartCount> p_m;
-  /// One standard deviation of p_m; NaN where it is not known.
+  /// One standard deviation of p_m; NaN if unknown.
   std::array<Eigen::Vector2d, kBodyPartCount> sd_m = unknown_points();
 
   const Eigen::Vector2d& operator[](BodyPart part) const { return p_m[index(part)]; }
@@ -36,8 +36,8 @@ struct CalibratedSample {
   static std::array<Eigen::Vector2d, kBodyPartCount> unknown_points();
 };
 
-/// A run on the proportions of the model: what `calibrate/` makes of a trajectory, and `train/` of
-/// an agent's own run.
+/// A run on the proportions of the model, from a trajectory (`calibrate/`) or an agent's episode
+/// (`train/`).
 struct CalibratedTrajectory {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,7 +53,7 @@ struct CalibratedTrajectory {
 
 /// NAME.calibrated.csv: `# stride calibrated 1`, unit m; columns time_s, phase, the coordinates by
 /// name, pelvis_ty_sd, and <part>_x, <part>_y, <part>_x_sd, <part>_y_sd (the deviations may be
-/// absent). Errors name the file, and the cure where the file is still a trajectory in pixels.
+/// absent). Errors name the file, and the cure if the file is a trajectory in pixels.
 CalibratedTrajectory load_calibrated(const std::filesystem::path& file);
 void save(const CalibratedTrajectory& trajectory, const std::filesystem::path& file);
 

@@ -108,7 +108,7 @@ LegAngles<T> leg_angles(const T* hip, const T* knee, const T* ankle, const T* as
               half * evaluate_series(asymmetry + asymmetry::ankle, kAsymmetryHarmonics, own)};
 }
 
-/// Where the parts of the model's foot and trunk point, as unit vectors.
+/// Directions of the model's foot and trunk, as unit vectors.
 struct Directions {
   Eigen::Vector2d foot;   // talus to toes at foot angle 0
   Eigen::Vector2d trunk;  // hips to head at tilt 0
@@ -117,7 +117,7 @@ struct Directions {
         trunk((model.p_pelvis_head_m - model.p_pelvis_hip_m).normalized()) {}
 };
 
-/// A part of the runner from the marked pelvis, m: limbs of fixed length, knees that are hinges.
+/// Position of a part relative to the labelled pelvis, m: limbs of fixed length, knees as hinges.
 template <typename T>
 Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body, const T* sides,
                       const T& tilt, const LegAngles<T>& leg, const T& phase) {

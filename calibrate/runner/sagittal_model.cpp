@@ -12,7 +12,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 Eigen::Vector2d flat(const osim::Vec3& p) { return {p[0], p[1]}; }
 
-/// The joint that carries a body, whose frames must be parallel to those of the bodies.
+/// The joint of a body. Its frames must be parallel to those of the bodies.
 const osim::Joint& joint_of(const osim::Model& model, const std::string& body) {
   const int child = model.body(body);
   require(child >= 0, "model {}: body '{}' is missing: a runner has it", model.name, body);

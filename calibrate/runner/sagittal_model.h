@@ -24,8 +24,8 @@ Vector2<T> turned(const T& angle, const V& v) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// The model seen from its right side: what is needed to place its joints. Every leg is the right
-/// one's mirror image. p_AB is B from A in A's frame, m.
+/// The sagittal geometry of the model, from its right side. Both legs are alike. p_AB is B from A
+/// in A's frame, m.
 struct SagittalModel {
   struct Range {
     double min = 0, max = 0;  // rad
@@ -38,8 +38,8 @@ struct SagittalModel {
   Eigen::Vector2d p_pelvis_hip_m, p_pelvis_head_m;
   osim::SplineCoefficients knee_x_m, knee_y_m;  // p_femur_tibia against the knee angle
   Eigen::Vector2d p_tibia_talus_m, p_talus_toes_m;
-  /// How far a joint can go: until the torque of its limit has risen through the whole of its
-  /// transition. The range of a coordinate, which nothing enforces, counts where there is no limit.
+  /// Range of motion of a joint: up to the end of the transition of its limit. Without a limit, the
+  /// range of the coordinate, which nothing enforces.
   Range hip, knee, ankle;
   std::vector<Sphere> spheres;
 
@@ -48,7 +48,7 @@ struct SagittalModel {
   double shank_m() const;
 };
 
-/// Throws Error where the model is not a planar runner with pelvis, femur, tibia, talus and toes.
+/// Throws Error if the model is not a planar runner with pelvis, femur, tibia, talus and toes.
 SagittalModel sagittal_model(const osim::Model& model);
 
 /// p_PK of a leg: from the pelvis origin, in axes of the ground.
@@ -73,7 +73,7 @@ Leg<T> place_leg(const SagittalModel& model, const T& tilt, const T& hip, const 
   return leg;
 }
 
-/// Fills the points of a sample from its coordinates.
+/// Sets the points of a sample from its coordinates.
 void place_parts(const SagittalModel& model, CalibratedSample& sample);
 
 /// Height of the lowest point of a foot's contact spheres relative to the pelvis origin, m

@@ -6,10 +6,10 @@
 
 namespace stride::annotation {
 
-/// A change as one line of JSON, and back. Numbers read back exactly.
+/// Writes a change as one line of JSON. Numbers read back exactly.
 std::string line_of(const Change& change);
 
-/// Throws Error, beginning with `where`, if the line is not one of ours.
+/// Reads such a line. Throws Error, beginning with `where`, if it is not a change.
 Change change_of(const std::string& line, const std::string& where);
 
 }  // namespace stride::annotation

@@ -16,7 +16,7 @@ double length_px(const ClickedFrame& frame, BodyPart from, BodyPart to) {
   return (frame[from]->p_px - frame[to]->p_px).norm();
 }
 
-/// Where one foot stands: the lowest spots, at least a third of a stride apart.
+/// Stance positions of a foot: its lowest points, at least a third of a stride apart.
 void add_stances(const Trajectory& trajectory, BodyPart part, double stride_frames,
                  std::vector<Eigen::Vector2d>& spots) {
   for (const TrajectoryFrame& candidate : trajectory.frames) {
@@ -61,7 +61,7 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by) {
   std::optional<int> worst;
-  constexpr double kPriorOnlyConfidence = 0.3;  // at most that: only the prior speaks
+  constexpr double kPriorOnlyConfidence = 0.3;  // confidence up to this comes from the prior alone
   double least = 1;
   for (const TrajectoryFrame& frame : prediction.frames) {
     const auto near = keypoints.frames.lower_bound(frame.frame - 2);

@@ -23,14 +23,14 @@ std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int frame);
 /// Leg parts that a line on the screen connects.
 std::vector<std::pair<BodyPart, BodyPart>> bones();
 
-/// The frame whose asked parts are known worst, none within two frames of a click or among
-/// `passed_by`. Nothing where every part has been followed in the picture.
+/// The frame with the least certain parts, except within two frames of a click and in `passed_by`.
+/// Nothing if every part was followed in the picture.
 std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by);
 
-/// A line through the spots where the feet are lowest. Nothing where they are all at one place of
-/// the picture (less than a tenth of its width apart), as on a treadmill.
+/// A line through the lowest positions of the feet. Nothing if they lie within a tenth of the
+/// picture's width, as on a treadmill.
 std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames);
 
 }  // namespace stride::annotation

@@ -74,7 +74,7 @@ class AnnotationJournal::Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  /// Appends a line and waits until it is on the disk. On failure no half of it stays.
+  /// Appends a line and flushes it to the disk. A failure leaves no partial line.
   void append(const std::string& text) {
     const std::string line = text + '\n';
     std::size_t written = 0;
@@ -100,7 +100,7 @@ class AnnotationJournal::Log {
   [[noreturn]] void give_up() {
     const int reason = errno;
     if (::ftruncate(descriptor_, size_) != 0) {
-      // A half line at the end is skipped when the journal is read.
+      // A partial line at the end is skipped when the journal is read.
     }
     throw Error(fmt::format("{}: not saved ({}); what was saved before is safe", file_,
                             std::strerror(reason)));
@@ -144,7 +144,7 @@ void AnnotationJournal::start_log() {
 }
 
 void AnnotationJournal::replay(const std::string& content) {
-  // A line that was being written when the program died has no end and was never confirmed.
+  // A line without an end was being written when the program died; its call never returned.
   std::istringstream lines(content.substr(0, content.rfind('\n') + 1));
   std::string line;
   if (!std::getline(lines, line)) return start_log();

@@ -8,19 +8,19 @@
 
 namespace stride::annotation {
 
-/// An annotation that is on disk at every moment. Each edit is a line at the end of
-/// NAME.keypoints.journal, flushed to the disk before the call returns; fold() puts the whole into
-/// NAME.keypoints.json by an atomic rename. Whatever kills the program between two calls, or within
-/// one, the next to open the annotation finds every edit that had returned.
+/// An annotation that is always on disk. Each edit appends a line to NAME.keypoints.journal and
+/// flushes it before the call returns; fold() writes NAME.keypoints.json by an atomic rename. If
+/// the program is killed, the next one to open the annotation finds every edit whose call had
+/// returned.
 ///
-/// NAME.keypoints.json is replaced only while it still is what was read or written here: of a file
-/// that somebody edited meanwhile, or that a newer program wrote, nothing is lost.
+/// NAME.keypoints.json is replaced only if it is unchanged since it was read or written here, so a
+/// file that was edited meanwhile or written by a newer version is never lost.
 class AnnotationJournal {
  public:
-  /// Opens the annotation of a video: its keypoints file if there is one, else `fresh`, and then
-  /// whatever a killed program left in the journal. Throws Error if another window has it open, if
-  /// the folder cannot be written, if the keypoints belong to another video than `fresh` or are of
-  /// a newer version, or if they were edited after the journal had been left behind.
+  /// Opens the annotation of a video: its keypoints file, or else `fresh`, and then the edits that
+  /// a killed program left in the journal. Throws Error if another window has it open, if the
+  /// folder is not writable, if the keypoints belong to another video than `fresh` or to a newer
+  /// version, or if they were edited after the journal was left behind.
   AnnotationJournal(const std::filesystem::path& keypoints_file, const Keypoints& fresh);
   ~AnnotationJournal();  // folds; a failure is reported on stderr and the journal kept
   AnnotationJournal(const AnnotationJournal&) = delete;
@@ -28,17 +28,17 @@ class AnnotationJournal {
 
   const AnnotationDocument& document() const { return document_; }
   const std::filesystem::path& file() const { return file_; }  // where it is folded to
-  int recovered() const { return recovered_; }  // edits that a killed program had left
+  int recovered() const { return recovered_; }  // edits recovered from a killed program
 
-  /// As of AnnotationDocument, and on disk on return. Where the disk refuses (full, read only), the
-  /// edit is taken back and Error names the file and the reason.
+  /// As AnnotationDocument's, and on disk on return. If the disk fails (full, read only), the edit
+  /// is undone and the Error names the file and the reason.
   void apply(Change change);
   std::optional<Change> undo();
   std::optional<Change> redo();
 
   bool is_folded() const { return folded_; }
-  /// Throws Error if the file was edited meanwhile, saying beside it where this annotation goes
-  /// from now on; or if it cannot be written, and then the journal is kept.
+  /// Throws Error if the file was edited meanwhile, naming the file that is used from now on; or if
+  /// it cannot be written, in which case the journal is kept.
   void fold();
 
  private:
@@ -56,8 +56,8 @@ class AnnotationJournal {
   bool folded_ = true;
 };
 
-/// Folds what a killed `stride annotate` left beside a keypoints file, for programs that only read
-/// it. Nothing happens without a journal or while a window has it open.
+/// Folds the journal that a killed `stride annotate` left, for programs that only read the
+/// keypoints. Does nothing without a journal or while a window has it open.
 void fold_left_over_journal(const std::filesystem::path& keypoints_file);
 
 std::filesystem::path journal_file_of(const std::filesystem::path& keypoints_file);

@@ -7,26 +7,25 @@
 
 namespace stride::tracking {
 
-/// What is marked on a video.
+/// The labelled points of a video.
 struct LabelledClip {
   Trajectory marks;
-  double slow_motion = 1;         // seconds of video a second of the runner
+  double slow_motion = 1;         // seconds of video per second of the runner
   std::string points = "clicks";  // whose they are: "clicks", "network", "mixed", "import"
 };
 
-/// The clicks on a video, those that a killed `stride annotate` left in its journal included.
+/// The clicks on a video, including those that a killed `stride annotate` left in its journal.
 /// `slow_motion` > 0 replaces what the clicks say. Throws Error naming the cure where there is no
 /// such video, where it was not clicked, or where it is not the one that was clicked.
 LabelledClip clicks_on(const std::filesystem::path& video,
                        const std::filesystem::path& keypoints_file, double slow_motion);
 
-/// The points of another program or of a pose model as marks. Where they are a detector's (on most
-/// frames), right and left are repaired if `with_legs_repaired`, and what was swapped is told on
-/// stderr.
+/// The points of another program or of a pose network as labelled points. If they are a detector's
+/// (on most frames) and `with_legs_repaired`, swapped legs are repaired and reported on stderr.
 LabelledClip points_on(const std::filesystem::path& video, const imports::Detections& detections,
                        const video::VideoTimes& times, double slow_motion, bool with_legs_repaired);
 
-/// Follows the marks through the frames of their video, which is decoded once.
+/// Tracks the labelled points through their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const LabelledClip& labelled,
               const TrackOptions& options = {}, const video::DecodeOptions& decode_options = {});
 

@@ -6,11 +6,10 @@
 
 namespace stride::annotation {
 
-/// Qt's window magnifies the whole canvas at every turn of the wheel, after the mouse callback has
-/// been told of it, and highgui cannot turn that off. What it can do is save how a window looks and
-/// load that again, by a settings file; we keep this one in a folder of our own, made anew for
-/// every window. To be made before the first window of the program, which fixes where such files
-/// are.
+/// Undoes the zoom of OpenCV's Qt window, which magnifies the whole canvas at every turn of the
+/// wheel, after the mouse callback, and cannot be turned off. highgui can save and restore the
+/// state of a window through a settings file; this class keeps that file in a temporary folder.
+/// Construct it before the first window of the program, which fixes the folder of such files.
 class QtZoom {
  public:
   explicit QtZoom(std::string title);
@@ -18,10 +17,10 @@ class QtZoom {
   QtZoom(const QtZoom&) = delete;
   QtZoom& operator=(const QtZoom&) = delete;
 
-  void will_change();  // in the callback of a turn of the wheel
-  void take_back();    // outside of callbacks; show() the picture next
-  /// A window that was magnified shows a row more or less than before: the places of the mouse
-  /// follow only when its size changes.
+  void will_change();  // call in the callback of the wheel
+  void take_back();    // call outside of callbacks, then show() the picture
+  /// A window that was magnified differs by a row afterwards: mouse positions are updated only when
+  /// its size changes.
   void show(const cv::Mat& picture);
 
  private:

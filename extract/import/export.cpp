@@ -94,7 +94,7 @@ void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
   write_file_atomically(file, {out.data(), out.size()});
 }
 
-/// Index in BODY_25. Our head has no equal there; the nose is where others look for it.
+/// Index in BODY_25. It has no head; ours becomes the nose.
 int body25_index(BodyPart part) {
   constexpr std::array<int, kBodyPartCount> kIndex{8, 10, 11, 22, 9, 13, 14, 19, 12, 0};
   return kIndex[index(part)];

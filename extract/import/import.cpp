@@ -14,7 +14,7 @@ namespace stride::imports {
 namespace fs = std::filesystem;
 namespace {
 
-/// Which format a file is, from its first bytes. Empty: none that we know.
+/// The format of a file by its first bytes; empty if unknown.
 std::string sniff(std::string_view content) {
   const auto start = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (start == std::string_view::npos) return "";

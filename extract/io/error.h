@@ -8,7 +8,7 @@
 
 namespace stride {
 
-/// What a user can cure. The message names the thing, the value, the rule and the cure:
+/// An error that the user can fix. The message names the thing, the value, the rule and the cure:
 /// `ddpg.gamma = 1.2: must be in [0, 1)`. Thrown at the edges (files, options, data of others),
 /// caught in main().
 struct Error : std::runtime_error {

@@ -7,8 +7,8 @@
 
 namespace stride {
 
-/// Engines give the same numbers everywhere; distributions of the standard library do not, so those
-/// that are needed are here.
+/// The standard engines give the same numbers everywhere, the standard distributions do not; hence
+/// these.
 using Random = std::mt19937_64;
 
 /// Uniform in [0, 1).

@@ -4,7 +4,7 @@
 
 namespace stride {
 
-/// The upper of the two in the middle where their number is even; NaN where there are none.
+/// The median; of an even number of values the upper of the two middle ones. NaN if empty.
 double median(std::vector<double> values);
 
 }  // namespace stride

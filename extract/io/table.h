@@ -8,7 +8,7 @@
 
 namespace stride {
 
-/// A CSV file with a preamble, the form of every time series of ours:
+/// A CSV file with a preamble, the format of all our time series:
 ///
 ///     # stride trajectory 1          format and version
 ///     # unit: px                     metadata, `key: value`
@@ -36,9 +36,8 @@ struct Table {
   bool has_column(std::string_view name) const;
 };
 
-/// Reads a table and checks that it is a `format` of at most `version`. Errors name file, line and
-/// what was expected; a table of another format is named as what it is, so that the caller's cure
-/// can be added.
+/// Reads a table and checks that its format is `format` of at most `version`. Errors name file,
+/// line and what was expected; for another format they say which it is.
 Table load_table(const std::filesystem::path& file, std::string_view format, int version,
                  std::string_view cure = {});
 

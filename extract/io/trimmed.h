@@ -4,7 +4,7 @@
 
 namespace stride {
 
-/// A cell, or a line, without the blanks, tabs and carriage returns around it.
+/// A cell or line without surrounding blanks, tabs and carriage returns.
 inline std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};

@@ -5,9 +5,9 @@
 
 namespace stride {
 
-/// What is marked on a runner. The pelvis is the midpoint of the hips, every other part the centre
-/// of its joint; the toe is the tip of the big toe, the head its centre. `_r` and `_l` are the
-/// runner's own right and left.
+/// The labelled parts of a runner. The pelvis is the midpoint of the hips, every other part the
+/// centre of its joint; the toe is the tip of the big toe, the head its centre. `_r` and `_l` are
+/// the runner's own right and left.
 enum class BodyPart { pelvis, knee_r, ankle_r, toe_r, hip_r, knee_l, ankle_l, toe_l, hip_l, head };
 
 inline constexpr std::array kBodyParts{
@@ -15,7 +15,7 @@ inline constexpr std::array kBodyParts{
     BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l,   BodyPart::hip_l, BodyPart::head};
 inline constexpr int kBodyPartCount = static_cast<int>(kBodyParts.size());
 
-/// A potential cannot be made without these.
+/// The parts that a potential needs.
 inline constexpr std::array kRequiredParts{BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r,
                                            BodyPart::knee_l, BodyPart::ankle_l};
 

@@ -11,17 +11,17 @@
 
 namespace stride {
 
-/// What a person said about a part on a frame.
+/// The state of a click.
 enum class ClickState {
-  seen,       // it is there
-  estimated,  // it is hidden, this is where it must be
-  absent      // it is hidden or outside the frame, and cannot be told
+  seen,       // visible
+  estimated,  // hidden; the position is an estimate
+  absent      // hidden or outside the frame, position unknown
 };
 
 struct Click {
   Eigen::Vector2d p_px = Eigen::Vector2d::Zero();  // as Point::p_px; meaningless if absent
   ClickState state = ClickState::seen;
-  std::string other_json;  // keys of a later program, an object or empty
+  std::string other_json;  // unknown keys, an object or empty
 };
 
 struct ClickedFrame {
@@ -31,7 +31,7 @@ struct ClickedFrame {
 
   const std::optional<Click>& operator[](BodyPart part) const { return clicks[index(part)]; }
   std::optional<Click>& operator[](BodyPart part) { return clicks[index(part)]; }
-  /// There is a click with a place: seen or estimated.
+  /// Whether there is a click with a position: seen or estimated.
   bool placed(BodyPart part) const {
     const auto& click = clicks[index(part)];
     return click && click->state != ClickState::absent;
@@ -46,37 +46,37 @@ struct FloorLine {
   Eigen::Vector2d from_px = Eigen::Vector2d::Zero(), to_px = Eigen::Vector2d::Zero();
 };
 
-/// What a person marked on a video: NAME.keypoints.json. Everything is matched by name, frame by
-/// its number, nothing by order.
+/// The clicks on a video: NAME.keypoints.json. Parts are matched by name, frames by number, nothing
+/// by order.
 struct Keypoints {
   std::string video;         // file name, without folder
   std::string video_sha256;  // of the file's bytes
   int width_px = 0, height_px = 0;
   std::string direction;   // "right" or "left": the way the runner faces; empty: not said
   std::string near_leg;    // "right" or "left": the leg nearer to the camera; empty: not said
-  double slow_motion = 1;  // seconds of video a second of the runner
+  double slow_motion = 1;  // seconds of video per second of the runner
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;  // only these frames are used
   std::optional<FloorLine> floor;
   std::string notes;
   std::map<int, ClickedFrame> frames;  // by frame number
-  std::string other_json;              // keys of a later program, kept as they are
+  std::string other_json;              // unknown keys, kept as they are
 };
 
-/// Reads NAME.keypoints.json. Errors name the file, the frame, the part, the value and the rule: a
-/// newer version, an unknown part, a click outside the frame, a number that is none.
+/// Reads NAME.keypoints.json. Errors name file, frame, part, value and rule: a newer version, an
+/// unknown part, a click outside the frame, an invalid number.
 Keypoints load_keypoints(const std::filesystem::path& file);
 
 /// Checks as load_keypoints does, then replaces the file atomically. Throws Error.
 void save(const Keypoints& keypoints, const std::filesystem::path& file);
 
-/// What save() writes.
+/// The content that save() writes.
 std::string text_of(const Keypoints& keypoints);
 
-/// The rules of the format for values made by a program. Throws Error; `what` begins the sentence.
+/// Checks the rules of the format. Throws Error, beginning with `what`.
 void check(const Keypoints& keypoints, const std::string& what);
 
-/// Throws Error unless the keypoints were clicked on this very video (by SHA-256).
+/// Throws Error unless the keypoints belong to this video, by its SHA-256.
 void check_belongs_to(const Keypoints& keypoints, const std::filesystem::path& video);
 
 /// NAME.keypoints.json beside the video.

@@ -13,7 +13,7 @@
 
 namespace stride {
 
-/// A marked point on a frame, in pixels of the decoded frame: x right, y down, (0, 0) the centre of
+/// A point on a frame, in pixels of the decoded frame: x right, y down, (0, 0) the centre of
 /// the top left pixel.
 struct Point {
   Eigen::Vector2d p_px =
@@ -27,8 +27,8 @@ struct TrajectoryFrame {
   int frame = 0;      // index in decoding order, from 0
   double time_s = 0;  // of the runner: presentation time divided by the slow-motion factor
   std::array<Point, kBodyPartCount> points;
-  /// Way of the background's centre since the frame before, and how well its corners agree; NaN:
-  /// not known.
+  /// Displacement of the background's centre since the previous frame, and median residual of its
+  /// corners; NaN: unknown.
   Eigen::Vector2d camera_px = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   double camera_residual_px = std::numeric_limits<double>::quiet_NaN();
 
@@ -36,8 +36,8 @@ struct TrajectoryFrame {
   Point& operator[](BodyPart part) { return points[index(part)]; }
 };
 
-/// Every part of one runner in every frame from the first click to the last: what `extract/` makes
-/// of a video.
+/// Every part of one runner in every frame from the first click to the last: the result of
+/// `extract/`.
 struct Trajectory {
   std::string video;  // file name of the source
   std::string video_sha256;
@@ -57,7 +57,7 @@ struct Trajectory {
 Trajectory load_trajectory(const std::filesystem::path& file);
 void save(const Trajectory& trajectory, const std::filesystem::path& file);
 
-/// What save() writes.
+/// The content that save() writes.
 Table table_of(const Trajectory& trajectory);
 
 }  // namespace stride

@@ -20,14 +20,14 @@ constexpr std::array kJoints{std::array{BodyPart::knee_r, BodyPart::knee_l},
                              std::array{BodyPart::hip_r, BodyPart::hip_l}};
 constexpr std::size_t kKnee = 0, kAnkle = 1, kToe = 2;
 
-constexpr int kMemory = 3;            // earlier frames that a joint's path is continued from
+constexpr int kMemory = 3;            // earlier frames from which a joint's path is extrapolated
 constexpr double kChangeCost = 2;     // of a swap that begins or ends
-constexpr double kSwapCost = 0.15;    // of every swapped frame: most names are right
+constexpr double kSwapCost = 0.15;    // of every swapped frame: most labels are right
 constexpr double kNearLegCost = 0.3;  // of the far leg being seen better than the near one
-constexpr double kLeastEvidence = 3;  // of a swap that is carried out
+constexpr double kLeastEvidence = 3;  // for a swap to be applied
 constexpr int kRounds = 3;
 
-/// All that is known of the legs, relative to the pelvis: joints by frame.
+/// The joints of the legs relative to the pelvis, by frame.
 struct Legs {
   std::vector<int> frames;
   std::vector<double> times_s;
@@ -79,7 +79,7 @@ double cauchy(double distance, double spread) {
   return std::log1p(distance * distance / (spread * spread));
 }
 
-/// Where the feet hang on the wrong knees, by the lengths of the shanks.
+/// Frames on which the feet are on the wrong knees, by the lengths of the shanks.
 std::vector<bool> crossed_feet(const Legs& legs) {
   const auto& knees = legs.joints[kKnee];
   const auto& ankles = legs.joints[kAnkle];
@@ -103,14 +103,14 @@ std::vector<bool> crossed_feet(const Legs& legs) {
   return crossed;
 }
 
-/// The joint's place under a naming: swapped or not.
+/// The joint's position, swapped or not.
 const Vector2d& place(const Legs& legs, std::size_t joint, std::size_t i, int side, bool swapped) {
   return legs.joints[joint][i].p_px[swapped ? 1 - side : side];
 }
 
-/// Distance of a joint from where its path sends it, given the naming of the last frames (bit k:
-/// swapped k frames ago); with the number of frames that this looks back. Nothing if it was not
-/// seen lately.
+/// Distance of a joint from the extrapolation of its path, given the labelling of the last frames
+/// (bit k: swapped k frames ago), and how many frames that looks back. Nothing if it was not seen
+/// recently.
 struct Jump {
   double distance_px;
   double spread_factor;  // the less that is known of the path, the wider
@@ -135,7 +135,7 @@ std::optional<Jump> jump(const Legs& legs, std::size_t joint, std::size_t i, int
   return Jump{(now - expected).norm(), static_cast<double>(seen[0]) * (0.5 + 0.5 * ahead)};
 }
 
-/// Usual jump of each joint when nothing is swapped.
+/// Typical extrapolation error of each joint without swaps.
 std::vector<double> usual_jumps(const Legs& legs, const std::vector<bool>& swapped) {
   std::vector<double> spreads;
   for (std::size_t joint = 0; joint < kJoints.size(); ++joint) {
@@ -153,7 +153,7 @@ std::vector<double> usual_jumps(const Legs& legs, const std::vector<bool>& swapp
   return spreads;
 }
 
-/// The costs of a naming, frame by frame.
+/// The costs of a labelling, frame by frame.
 struct Costs {
   const Legs& legs;
   std::vector<double> jump_px;
@@ -199,7 +199,7 @@ struct Costs {
   }
 };
 
-/// The cheapest naming. The state is the naming of the last frames, bit 0 the newest.
+/// The labelling of minimal cost. The state is the labelling of the last frames, bit 0 the newest.
 std::vector<bool> cheapest_naming(const Costs& costs) {
   constexpr unsigned kStates = 1u << kMemory;
   const std::size_t n = costs.legs.frames.size();
@@ -248,7 +248,7 @@ double total(const Costs& costs, const std::vector<bool>& swapped, std::size_t f
   return sum;
 }
 
-/// A stretch of swapped frames with the evidence for it.
+/// An interval of swapped frames with its evidence.
 LegSwap explained(const Costs& costs, const std::vector<bool>& swapped, std::size_t first,
                   std::size_t last) {
   std::vector<bool> kept = swapped;
@@ -266,7 +266,7 @@ LegSwap explained(const Costs& costs, const std::vector<bool>& swapped, std::siz
   return swap;
 }
 
-/// Right and left joints by the names that were found.
+/// Right and left joints with the labels found.
 Legs renamed(Legs legs, const std::vector<bool>& swapped) {
   for (auto& joint : legs.joints)
     for (std::size_t i = 0; i < swapped.size(); ++i)
@@ -309,8 +309,8 @@ LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& opti
   std::vector<bool> swapped(legs.frames.size());
   Costs costs{
       legs, usual_jumps(legs, swapped), {}, near_side(points.direction), options.clicked_frames};
-  costs.fold = fold_stride(legs.joints, legs.times_s);  // most names are right
-  // Between frames that are far apart paths tell nothing.
+  costs.fold = fold_stride(legs.joints, legs.times_s);  // most labels are right
+  // Between frames that are far apart, paths carry no information.
   const int span = legs.frames.back() - legs.frames.front();
   if (!costs.fold && span >= 2 * (static_cast<int>(legs.frames.size()) - 1)) return result;
   for (int round = 0; round < kRounds; ++round) {

@@ -10,11 +10,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kClicked = 0.99;           // marks of at least this confidence are a person's
-constexpr double kStudentDof = 3;           // tails of the flow's and the detectors' errors
+constexpr double kClicked = 0.99;  // marks of at least this confidence are a person's
+constexpr double kStudentDof = 3;  // degrees of freedom of the errors of flow and detectors
 constexpr double kLeastStepVariance = 0.1;  // px², of a step of the flow
 constexpr double kMostOfMarks = 0.75;       // of what the flow misses, by the noise of the marks
-constexpr double kFramesAlike = 10;         // of a prediction: their errors are one
+constexpr double kFramesAlike = 10;         // of a prediction: their errors are correlated
 constexpr double kLeastPredictionVariance = 0.02;  // px²
 
 double noise_px(const gaussian_process::GaitPrior& prior, BodyPart part) {
@@ -22,15 +22,15 @@ double noise_px(const gaussian_process::GaitPrior& prior, BodyPart part) {
   return trunk ? prior.trunk.noise_px : prior.legs.noise_px;
 }
 
-/// The steps of a stretch where the flow was believed, from either side.
+/// The inlier displacements between two labelled points, from both sides.
 void read_stretch(const FlowStretch& s, double part_miss, double noise,
                   std::vector<Measurement>& measurements) {
   const int length = s.last - s.first;
   const double own_miss = (s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm()) / 4;
-  // The marks at both ends are a part of the miss.
+  // The noise of both labelled points is part of the miss.
   const double miss = part_miss + own_miss,
                drift = std::max(miss - 3 * noise * noise, (1 - kMostOfMarks) * miss);
-  // The steps of a stretch share their error: as much again as if they were independent, and more.
+  // The displacements between two points have correlated errors, so their variance is increased.
   const double step_variance = kLeastStepVariance + 2 * drift / length;
   for (int i = 0; i < length; ++i) {
     const FlowStep &a = s.forward[static_cast<std::size_t>(i)],
@@ -101,9 +101,9 @@ void add_prediction(std::vector<Measurement>& measurements, const Trajectory& pr
           ++n;
         }
     if (n < 3) continue;
-    // Of the distance from the marks, what their noise does not explain. The error of a fit is the
-    // same in frames that follow one another and in every stride: each says little of its own, and
-    // the less the worse the fit is than the marks.
+    // The part of the distance from the labelled points that their noise does not explain. The
+    // error of a fit is correlated over neighbouring frames and strides, so each frame has little
+    // weight, the less the worse the fit.
     const double noise = std::pow(noise_px(prior, part), 2);
     const Eigen::Array2d own_px2 =
         (squared.array() / n - 0.7 * noise).max(std::max(0.15 * noise, kLeastPredictionVariance));

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The pyramids of the sights, built when they are needed.
+/// Image pyramids of the crops, built on demand.
 class Pyramids {
  public:
   Pyramids(const std::vector<video::Crop>& crops, const FlowOptions& options)
@@ -35,14 +35,14 @@ class Pyramids {
   std::size_t forgotten_ = 0;
 };
 
-/// Parts that are marked on the same two frames and on none between.
+/// Parts that are labelled on the same two frames and on none between.
 struct Pass {
   int first, last;
   std::vector<BodyPart> parts;
   std::vector<Vector2d> from_px, to_px;
 };
 
-/// In the order of their last frames.
+/// Sorted by their last frames.
 std::vector<Pass> passes(const Trajectory& marks, const FlowOptions& options) {
   std::vector<Pass> result;
   std::array<const TrajectoryFrame*, kBodyPartCount> before{};
@@ -118,7 +118,7 @@ class Follower {
     return {static_cast<double>(p.x) + origin.x, static_cast<double>(p.y) + origin.y};
   }
 
-  /// Lucas–Kanade from one frame to another, started at `guess`.
+  /// Lucas–Kanade from one frame to another, starting at `guess`.
   std::vector<unsigned char> lucas_kanade(int from, int to, const std::vector<cv::Point2f>& points,
                                           std::vector<cv::Point2f>& guess) {
     std::vector<unsigned char> found;

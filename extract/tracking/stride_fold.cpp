@@ -60,13 +60,13 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& signals, const Eigen
   return fit;
 }
 
-/// −log probability of a period before anything is seen.
+/// −log prior probability of a period.
 double improbability(double period_s) {
   return 0.5 * std::pow(std::log(period_s / kUsual_s) / kSpread, 2);
 }
 
-/// What does not change when right and left are exchanged: sum and squared difference of the two
-/// sides, which repeat every step. A row a frame on which both were seen.
+/// Invariants under swapping right and left, with the period of a step: sum and squared difference
+/// of both sides. A row for each frame on which both were seen.
 struct Invariants {
   std::vector<double> times_s;
   Eigen::MatrixXd signals;
@@ -103,15 +103,16 @@ struct Period {
   double period_s, cost;  // −log probability of the invariants
 };
 
-/// Whether another period can look the same at these times: four of them in the shortest tell.
+/// Whether the sampling times allow aliases of a period: four samples in the shortest period
+/// exclude them.
 bool has_aliases(const std::vector<double>& times_s) {
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps_s.push_back(times_s[i] - times_s[i - 1]);
   return median(steps_s) > kShortest_s / 4;
 }
 
-/// The period that explains the invariants best, or several where it has aliases; none if the clip
-/// is too short to tell.
+/// The period that explains the invariants best, or several if it has aliases; none if the clip is
+/// too short.
 std::vector<Period> likely_periods(const std::vector<std::vector<JointPair>>& joints,
                                    const std::vector<double>& times_s) {
   std::vector<Invariants> seen;
@@ -181,7 +182,7 @@ Folded fold_at(const std::vector<std::vector<JointPair>>& joints,
       row_weights[i] = weights[static_cast<std::size_t>(i)];
     }
     std::array<Basis, 2> coefficients{Basis::Zero(), Basis::Zero()};
-    double spread_px = std::numeric_limits<double>::infinity();  // unseen joints say nothing
+    double spread_px = std::numeric_limits<double>::infinity();  // no information if unseen
     if (n > 0) {
       const Fit joint_fit = fit(rows, signals, row_weights, 0.5, kSidesAlike * row_weights.sum());
       coefficients = {joint_fit.coefficients.col(0), joint_fit.coefficients.col(1)};
@@ -201,9 +202,9 @@ std::optional<StrideFold> fold_stride(const std::vector<std::vector<JointPair>>&
   if (times_s.size() < 12) return std::nullopt;
   std::vector<Period> periods = likely_periods(joints, times_s);
   if (periods.empty()) return std::nullopt;
-  // Seen a little from the front or the back the legs differ: two strides then pass for one. With
-  // names, a wrong factor of two puts the legs in step, which fits badly; so does a period that
-  // only the spacing of the frames makes likely.
+  // Seen slightly from the front or the back the legs differ, and two strides can pass for one.
+  // With labels, a wrong factor of two puts the legs in phase, which fits badly, as does a period
+  // that is an alias of the frame spacing.
   if (const auto [period_s, cost] = periods.front(); period_s / 2 >= kShortest_s)
     periods.push_back({period_s / 2, cost});
   std::optional<Folded> best;

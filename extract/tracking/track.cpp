@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPriorOnly = 0.3;  // most confidence that the prior alone can give
+constexpr double kPriorOnly = 0.3;  // largest confidence of a point from the prior alone
 constexpr double kKeptNoise_px = 0.02;
 constexpr int kReweightings = 3;
-constexpr int kLooks = 5;          // at the picture, until the period has settled
+constexpr int kLooks = 5;          // passes of optical flow, until the period has settled
 constexpr double kSettled = 2e-3;  // change of the period
 
 FlowOptions flow_options(double size_px) {
@@ -31,7 +31,7 @@ FlowOptions flow_options(double size_px) {
   return options;
 }
 
-/// The runner stays where he is before a background that rests: within half a leg a stride.
+/// Treadmill: the runner stays in place, within half a leg a stride, before a background at rest.
 std::optional<bool> is_treadmill(const Trajectory& t, double size_px, double period_s) {
   Vector2d displacement = Vector2d::Zero();  // of the pelvis before the background
   double rest_px = 0;
@@ -48,12 +48,12 @@ std::optional<bool> is_treadmill(const Trajectory& t, double size_px, double per
   return std::abs(displacement.x()) < 0.5 * size_px * strides && rest_px < 0.5 * size_px * strides;
 }
 
-/// The part was said to be absent on the marked frames around this one.
+/// Whether the part was labelled absent on the labelled frames around this one.
 bool is_absent(const Trajectory& marks, BodyPart part, int frame) {
   const Point *before = nullptr, *after = nullptr;
   for (const TrajectoryFrame& mark : marks.frames) {
     const Point& point = mark[part];
-    if (!point.present() && point.confidence == 0) continue;  // nothing was said
+    if (!point.present() && point.confidence == 0) continue;  // not labelled
     if (mark.frame <= frame) before = &point;
     if (mark.frame >= frame && after == nullptr) after = &point;
   }
@@ -67,7 +67,7 @@ double median_rate_hz(const std::vector<double>& times_s) {
   return steps.empty() ? 30 : 1 / median(std::move(steps));
 }
 
-/// Estimates with the confidence that their sources deserve.
+/// Sets the estimates and their confidence.
 std::vector<TrajectoryFrame> assembled(const Trajectory& marks,
                                        const gaussian_process::Estimates& estimates,
                                        const std::vector<Measurement>& measurements,
@@ -152,7 +152,7 @@ Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
         },
         flow_options(video::body_size_px(marks)));
     add_flow(measurements, stretches, weights);
-    // The prediction has a period of its own, which says nothing new.
+    // The prediction has its own period, which is no new information.
     const double before_s = summary.prior.legs.period_s;
     summary.prior =
         gaussian_process::with_period_of(summary.prior, observations_of(measurements, times_s));
@@ -183,7 +183,7 @@ Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
       tracked.trajectory.frames[i].camera_px = clip.camera[i].displacement_px;
       tracked.trajectory.frames[i].camera_residual_px = clip.camera[i].residual_px;
     }
-  if (options.keep_marks)  // the regression passes them by a tenth of a pixel
+  if (options.keep_marks)  // the regression misses them by a tenth of a pixel
     for (const TrajectoryFrame& mark : marks.frames)
       for (const BodyPart part : kBodyParts)
         if (mark[part].present())
@@ -227,7 +227,7 @@ Trajectory marks_of(const Keypoints& keypoints) {
 }
 
 std::string facing(const Trajectory& points) {
-  double forward = 0;  // of the knees before the line from pelvis to ankle
+  double forward = 0;  // of the knees in front of the line from pelvis to ankle
   for (const TrajectoryFrame& frame : points.frames)
     for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
                                       std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {

@@ -11,16 +11,16 @@
 namespace stride::tracking {
 
 struct TrackOptions {
-  bool flow = true;         // follow the picture between marks; otherwise the prior alone
-  bool keep_marks = false;  // go exactly through every mark instead of averaging their noise out
+  bool flow = true;         // use optical flow between labelled points; otherwise the prior alone
+  bool keep_marks = false;  // interpolate the labelled points instead of averaging their noise
   const Trajectory* prior = nullptr;  // a prediction in pixels, as from the fit of a body model
 };
 
 struct TrackSummary {
   gaussian_process::GaitPrior prior;  // what was learned of the gait: period, noise of the marks, …
   int labelled_frames = 0;
-  double inlier = 0;  // share of the unmarked points where the flow was believed
-  std::array<double, kBodyPartCount> miss_px{};  // rms by which the flow missed the next mark; NaN
+  double inlier = 0;  // share of the other points where the flow was an inlier
+  std::array<double, kBodyPartCount> miss_px{};  // rms error of the flow; NaN if unknown
   std::string shortfall;                         // as Video::shortfall()
 };
 
@@ -29,24 +29,24 @@ struct Tracked {
   TrackSummary summary;
 };
 
-/// Every part in every frame from the first mark to the last.
+/// Tracks every part in every frame from the first labelled frame to the last.
 ///
-/// `marks` has the marked frames only. Confidence of a mark: 1 clicked (the flow starts from it),
-/// 0.5 marked as hidden, any other a detector's (weighs less, and outliers are given up); a mark
-/// without a place but with a confidence says that the part is absent. Throws Error if there are no
-/// marks, no pelvis, or a mark beyond the last frame.
+/// `marks` has the labelled frames only. Confidence of a point: 1 clicked (the flow starts from
+/// it), 0.5 labelled as hidden, any other a detector's (less weight, outliers are rejected). A
+/// point without a position but with a confidence means that the part is absent. Throws Error if
+/// there are no points, no pelvis, or a point beyond the last frame.
 ///
-/// In the result a clicked point has confidence 1. Between clicks it is above 0.3 where the flow
-/// was believed, the more the better it led back and agreed with the rest; at most 0.3, and the
-/// less the less certain the prior is, where only the prior speaks.
+/// Confidence of the result: 1 for a clicked point; above 0.3 where the flow was an inlier,
+/// increasing with its forward–backward consistency and its agreement with the rest; at most 0.3
+/// where only the prior speaks, decreasing with its uncertainty.
 Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
               const TrackOptions& options = {});
 
-/// The clicks inside the trim range as marks.
+/// The clicks inside the trim range.
 Trajectory marks_of(const Keypoints& keypoints);
 
-/// "right" or "left": the way the runner faces, because knees bend forward; empty if no leg was
-/// seen.
+/// "right" or "left": the direction in which the runner faces, because knees bend forward; empty if
+/// no leg was seen.
 std::string facing(const Trajectory& points);
 
 }  // namespace stride::tracking

@@ -78,7 +78,7 @@ Trajectory splined(const Trajectory& clicks, const Trajectory& truth) {
   return result;
 }
 
-/// Distances from the truth, over the frames of the first that lie inside the clicks.
+/// Distances from the truth on the frames between the first and the last click.
 std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth, int first,
                               int last) {
   std::map<int, const TrajectoryFrame*> true_frames;

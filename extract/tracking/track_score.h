@@ -10,17 +10,17 @@
 
 namespace stride::tracking {
 
-/// Tracking of one clip from clicks that were made from its truth, against that truth: knees and
-/// ankles, every frame from the first click to the last.
+/// Accuracy of tracking a clip from simulated clicks on its truth: knees and ankles, every frame
+/// from the first click to the last.
 struct TrackScore {
-  int spacing_frames = 0;  // a click every so many frames
+  int spacing_frames = 0;  // frames between clicks
   double noise_px = 0;     // standard deviation of a click, each coordinate
   double spline_px = 0;    // rms distance of the cubic spline through the same clicks
-  double prior_px = 0;     // of the prior alone, without looking at the picture
+  double prior_px = 0;     // of the prior alone, without optical flow
   double tracked_px = 0;   // of track()
   double tracked_p95_px = 0;
   double again_px = 0;  // of track() with the second pass's prediction; 0 without one
-  double period_s = 0;  // of the stride that was found
+  double period_s = 0;  // of the stride found
   double gain() const { return spline_px / tracked_px; }
 };
 
@@ -29,8 +29,8 @@ struct ScoreOptions {
   std::vector<double> noises_px{0, 1.5};
   int first_frame = 0;  // the first click
   unsigned seed = 1;
-  int seeds = 1;  // other noise, or without noise other frames, so many times
-  /// A prediction made from what was tracked, as by a fit, to track once more with.
+  int seeds = 1;  // number of noise samples or, without noise, of offsets of the clicked frames
+  /// Makes a prediction from the tracked trajectory, as by a fit, for a second pass.
   std::function<std::optional<Trajectory>(const Trajectory&)> predict = nullptr;
 };
 

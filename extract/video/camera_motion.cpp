@@ -23,7 +23,7 @@ std::vector<cv::Point2f> background_corners(const cv::Mat& gray, const cv::Rect&
   return corners;
 }
 
-/// Corners that were found again outside the runner and lead back, in both images.
+/// Corners outside the runner that pass the forward–backward check, in both images.
 struct Matches {
   std::vector<cv::Point2f> from, to;
 };

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A box about the pelvis, which goes straight from mark to mark.
+/// A box around the pelvis, interpolated between labelled frames.
 class RunnerBox {
  public:
   explicit RunnerBox(const Trajectory& marks) {
@@ -26,7 +26,7 @@ class RunnerBox {
     }
   }
 
-  /// As far as parts were ever marked, and farther in each direction.
+  /// The extent of all labelled parts, plus a margin in each direction.
   cv::Rect at(int frame, const Vector2d& farther_low, const Vector2d& farther_high) const {
     if (pelvis_.empty()) return {};
     const Vector2d low = pelvis_at(frame) + low_ - farther_low,
@@ -54,7 +54,7 @@ class RunnerBox {
   Vector2d low_ = Vector2d::Zero(), high_ = Vector2d::Zero();
 };
 
-/// The box, moved inside the frame: Lucas–Kanade wants all sights to be of one size.
+/// The box moved inside the frame: Lucas–Kanade needs crops of one size.
 Crop cropped(const cv::Mat& bgr, cv::Rect box) {
   box.width = std::min(box.width, bgr.cols);
   box.height = std::min(box.height, bgr.rows);
@@ -89,7 +89,7 @@ DecodedClip decode_clip(const Trajectory& marks, const FrameSource& frames,
   const int first = marks.frames.empty() ? 0 : marks.frames.front().frame,
             last = marks.frames.empty() ? -1 : marks.frames.back().frame;
   clip.first_frame = first;
-  CameraTracker camera({.most_features = 48});  // enough for the way alone; half the time of 80
+  CameraTracker camera({.most_features = 48});  // enough for the displacement; half the time of 80
   for (VideoFrame frame; frames(frame);) {
     clip.times_s.push_back(frame.time_s);
     if (frame.index < first || frame.index > last) continue;
@@ -97,7 +97,7 @@ DecodedClip decode_clip(const Trajectory& marks, const FrameSource& frames,
       const Vector2d margin = Vector2d::Constant(0.4 * size_px + 16);
       clip.crops.push_back(cropped(frame.image, runner.at(frame.index, margin, margin)));
     }
-    if (options.camera) {  // arms and head are left out of the background too
+    if (options.camera) {  // excludes arms and head too
       const cv::Rect box =
           runner.at(frame.index, Vector2d(0.4, 1.1) * size_px, Vector2d(0.4, 0.3) * size_px);
       clip.camera.push_back(camera.add(frame.image, box));

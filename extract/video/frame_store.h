@@ -12,12 +12,12 @@
 
 namespace stride::video {
 
-/// The frames of a video in any order, decoded once, front to back, by a thread of its own. Large
-/// clips are held as JPEG of high quality.
+/// Random access to the frames of a video, which a thread decodes once, in order. Large clips are
+/// held as JPEG of high quality.
 class FrameStore {
  public:
-  /// Throws Error, as Video does. `info()` is there at once, the frames follow.
-  /// `most_bytes`: of images that are held as they are.
+  /// Throws Error as Video does. `info()` is available at once, frames follow. `most_bytes`: of
+  /// images that are held as they are.
   explicit FrameStore(const std::filesystem::path& video, double most_bytes = 800e6);
   ~FrameStore();
   FrameStore(const FrameStore&) = delete;
@@ -25,11 +25,11 @@ class FrameStore {
 
   const VideoInfo& info() const { return info_; }
   int count() const { return count_; }         // frames decoded so far
-  bool complete() const { return complete_; }  // count() will not grow any more
+  bool complete() const { return complete_; }  // count() is final
   void wait();                                 // until complete
   std::string shortfall() const;               // as Video::shortfall(), once complete
 
-  /// frame < count(). BGR; the caller may not write to it. From any thread.
+  /// Requires frame < count(). BGR; the caller must not write to it. Thread-safe.
   cv::Mat image(int frame) const;
   double video_time_s(int frame) const;
 

@@ -18,7 +18,7 @@ cv::Point fixed_point(const Eigen::Vector2d& p) {
   return {static_cast<int>(std::lround(p.x() * kOne)), static_cast<int>(std::lround(p.y() * kOne))};
 }
 
-/// A canvas over the image on which strokes are mixed in with an opacity.
+/// A layer over the image with opacity for each stroke.
 class Brush {
  public:
   Brush(cv::Mat& image, double scale) : image_(image), scale_(scale) {}
@@ -110,8 +110,8 @@ void draw_leg(Brush& brush, const TrajectoryFrame& frame, const Leg& leg,
     if (frame[part].present()) draw_joint(brush, frame[part], colour, 3.2);
 }
 
-/// Where a part was on the frames of the last seconds, the oldest first, on the ground as it lies
-/// in frame `i`. Where the background could not be followed it counts as at rest.
+/// Positions of a part on the frames of the last seconds, oldest first, moved with the ground to
+/// frame `i`. A background that could not be followed counts as at rest.
 std::vector<Eigen::Vector2d> displacement_over_ground(const Trajectory& trajectory, std::size_t i,
                                                       BodyPart part, double seconds) {
   std::vector<Eigen::Vector2d> displacement;
@@ -128,14 +128,14 @@ std::vector<Eigen::Vector2d> displacement_over_ground(const Trajectory& trajecto
   return displacement;
 }
 
-/// Between b and c on the curve through four points (Catmull and Rom).
+/// Catmull–Rom interpolation between b and c.
 Eigen::Vector2d between(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                         const Eigen::Vector2d& c, const Eigen::Vector2d& d, double t) {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-/// A tail that fades and narrows with its age. It is drawn in a mask first, so that its pieces do
-/// not show where they overlap.
+/// A trail that fades and narrows with age. It is drawn in a mask first, so that overlapping pieces
+/// do not show.
 void draw_trail(cv::Mat& image, const std::vector<Eigen::Vector2d>& displacement,
                 const cv::Scalar& colour, double scale) {
   constexpr int kPieces = 5;

@@ -8,16 +8,16 @@
 namespace stride::video {
 
 struct OverlayStyle {
-  bool near_is_right = true;  // the leg that is drawn bright and on top
+  bool near_is_right = true;  // the leg that is drawn on top
   double scale = 1;           // of lines and dots; 1 suits 640×360
   double trail_s = 0.5;       // of the ankles over the ground; 0: none
 };
 
-/// Draws the points of `trajectory.frames[i]` on a BGR image of that frame: the far leg in blue,
-/// the near leg in orange, trunk and head in white. The less confident, the fainter: a joint is a
-/// disc with a white middle where it was clicked, a disc where the picture showed it, a ring where
-/// only the gait speaks (confidence up to 0.3). Behind the ankles goes the way that they went over
-/// the ground, as the background moved.
+/// Draws the points of `trajectory.frames[i]` on a BGR image of that frame: far leg blue, near leg
+/// orange, trunk and head white, opacity by confidence. A joint is a disc with a white centre where
+/// it was clicked, a disc where optical flow followed it, a ring where only the gait prior speaks
+/// (confidence up to 0.3). Trails show the paths of the ankles over the ground, by the motion of
+/// the background.
 void draw_points(cv::Mat& image, const Trajectory& trajectory, std::size_t i,
                  const OverlayStyle& style);
 

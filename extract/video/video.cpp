@@ -14,8 +14,8 @@ namespace stride::video {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether a file has the boxes of an mp4 or mov but no `moov`, the index that is written last: a
-/// recording that was never closed or a copy that was cut off.
+/// Whether a file has the boxes of an mp4 or mov but no `moov`, the index that is written last: an
+/// unfinished recording or a truncated copy.
 bool is_mp4_without_index(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::uintmax_t size = fs::file_size(file);
@@ -42,7 +42,7 @@ bool is_mp4_without_index(const fs::path& file) {
   return !first;
 }
 
-/// FFmpeg's own lines on stderr say less than our errors do.
+/// Silences FFmpeg's messages; our errors say more.
 void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); }
 
 }  // namespace
@@ -52,7 +52,7 @@ struct Video::Decoder {
   VideoInfo info;
   double slow_motion = 1;
   cv::Mat stored;  // of pixels that are not square
-  cv::Mat first;   // decoded on opening: only a decoded frame proves that this is a video
+  cv::Mat first;   // decoded on opening, to prove that this is a video
   int frames_read = 0;
   double start_s = 0, previous_s = 0, step_s = 0;  // in presentation time
 

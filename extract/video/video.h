@@ -16,20 +16,20 @@ struct VideoFrame {
 
 struct VideoInfo {
   std::filesystem::path file;
-  int width_px = 0, height_px = 0;  // of the frames that are handed out
+  int width_px = 0, height_px = 0;  // of the returned frames
   int stored_width_px = 0;          // differs from width_px where stored pixels are not square
   double rate_hz = 0;               // as announced, times the slow-motion factor
-  int announced_frames = 0;         // what the container says, which is often wrong; 0: nothing
+  int announced_frames = 0;         // by the container, often wrong; 0: unknown
 };
 
-/// A video decoded front to back, never by seeking: frame numbers are exact. Each frame carries its
-/// own time stamp (rates vary; the container's frame count and the last stamp of H.264 files cannot
-/// be trusted: stamps that do not grow are continued with the last step). Frames are turned upright
-/// by the rotation flag and widened where pixels are not square.
+/// A video that is decoded in order, never by seeking, so frame numbers are exact. Each frame has
+/// its own time stamp, because rates vary; stamps that do not grow, as the last ones of H.264
+/// files, continue with the last step. Frames are turned upright by the rotation flag and widened
+/// to square pixels.
 class Video {
  public:
-  /// `slow_motion`: 4 for a clip that shows a second in four. Throws Error naming the file if there
-  /// is none, if it is not a video, or if it is cut off so that nothing can be read.
+  /// `slow_motion`: 4 for a clip that shows one second in four. Throws Error if the file does not
+  /// exist, is not a video, or is cut off so that nothing can be read.
   explicit Video(const std::filesystem::path& file, double slow_motion = 1);
   ~Video();
   Video(Video&&) noexcept;

@@ -6,14 +6,14 @@
 
 namespace stride::video {
 
-/// Writes an mp4 (H.264) that appears under its name when it is complete. Odd widths and heights
-/// are padded by one pixel, because the encoder would cut them.
+/// Writes an mp4 (H.264), which gets its name when it is complete. Odd widths and heights are
+/// padded by one pixel, because the encoder would crop them.
 class VideoWriter {
  public:
   /// Throws Error naming the file and the value if `rate_hz` is not positive or the name does not
   /// end in .mp4.
   VideoWriter(const std::filesystem::path& file, double rate_hz);
-  /// Without finish() the unfinished file is removed.
+  /// Removes the unfinished file unless finish() was called.
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;

@@ -45,7 +45,7 @@ void say_whose_points(const fs::path& potential, const std::string& points) {
   write_file_atomically(potential, json.dump(1) + "\n");
 }
 
-/// One input on its way through the pipeline.
+/// One input and its intermediate results.
 class Clip {
  public:
   Clip(fs::path input, const ConvertOptions& options, const SagittalModel& model)
@@ -68,7 +68,7 @@ class Clip {
     return result_;
   }
 
-  /// The same, with what went wrong as the result.
+  /// The same, with a failure as the result.
   Converted convert_or_explain() {
     try {
       return convert();
@@ -132,7 +132,7 @@ class Clip {
     result_.verdict = run.verdict;
   }
 
-  /// Everything that the result depends on.
+  /// A hash of everything that the result depends on.
   std::string fingerprint() const {
     const KeyframeOptions& k = clip_.keyframes;
     std::string all =

@@ -11,12 +11,12 @@
 
 namespace stride::pipeline {
 
-/// What may differ from clip to clip.
+/// Options of a clip.
 struct ClipOptions {
   fit::RunnerSize size;
   std::string direction;   // "right", "left"; empty: as the keypoints say
   double slow_motion = 0;  // seconds of video a second of the runner; 0: as the keypoints say
-  bool force = false;      // convert a clip that was refused, where there is a fit
+  bool force = false;      // convert a refused clip if there is a fit
   KeyframeOptions keyframes;
 };
 
@@ -34,7 +34,7 @@ struct ConvertOptions {
   std::function<void(const std::string& line)> progress;  // one call at a time
 };
 
-/// A line of the table of results.
+/// A row of the table of results.
 struct Converted {
   std::string name;
   bool failed = false, unchanged = false;
@@ -47,13 +47,13 @@ struct Converted {
 /// The left half of the pipeline for each input: a video with NAME.keypoints.json beside it or
 /// followed by the pose network, a NAME.trajectory.csv, or a NAME.calibrated.csv (as an agent's own
 /// run). Writes, into `out`, NAME.trajectory.csv, NAME.calibrated.csv, NAME.report.txt,
-/// NAME.report.svg and NAME.potential.json; inputs that have not changed since are left alone. A
-/// failure of one is a line of its own and stops no other. Results in the order of the inputs.
+/// NAME.report.svg and NAME.potential.json; skips unchanged inputs. A failure of one input is a row
+/// of the table and does not stop the others. Results are in the order of the inputs.
 std::vector<Converted> convert(const std::vector<std::filesystem::path>& inputs,
                                const ConvertOptions& options);
 
-/// Folders become the videos and trajectories in them. Throws Error for what does not exist, or for
-/// two inputs of one name.
+/// Replaces folders by the videos and trajectories in them. Throws Error for missing inputs, or for
+/// two inputs of the same name.
 std::vector<std::filesystem::path> expand_inputs(const std::vector<std::filesystem::path>& given);
 
 /// NAME of an input.
@@ -64,7 +64,7 @@ std::string clip_name(const std::filesystem::path& input);
 /// weight. Errors name file, key and value.
 void load_convert_config(const std::filesystem::path& file, ConvertOptions& options);
 
-/// The results as a table for a person.
+/// The results as a table.
 std::string table_of(const std::vector<Converted>& results);
 
 }  // namespace stride::pipeline

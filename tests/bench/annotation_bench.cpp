@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrames = 300, kStride = 20, kWidth = 1920, kHeight = 1080;
 
-/// Ten seconds of noise in full HD: what is in the picture does not matter.
+/// Ten seconds of noise in full HD; the content of the picture does not matter.
 std::filesystem::path long_clip(const TemporaryFolder& folder) {
   const auto file = folder / "clip.mp4";
   cv::Mat coarse(kHeight / 40, kWidth / 40, CV_8UC3), image;
@@ -59,8 +59,8 @@ annotation::Prediction tracked() {
   return prediction;
 }
 
-/// From a click in a clip of 1920×1080 to the picture that shows it, the way to the disk included;
-/// the canvas has the size of the default window, or shows every pixel.
+/// From a click in a 1920×1080 clip to the picture that shows it, including the write to the disk.
+/// The canvas has the size of the default window, or shows every pixel.
 void click_to_picture(benchmark::State& state, const cv::Size& canvas_px, bool other_frame) {
   cv::setNumThreads(1);
   static const TemporaryFolder folder;

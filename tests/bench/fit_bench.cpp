@@ -1,4 +1,4 @@
-// The fit of five seconds of running, marked in every frame, on one core.
+// The fit of five seconds of running with points in every frame, on one core.
 #include <benchmark/benchmark.h>
 
 #include "calibrate/calibrate.h"
@@ -33,7 +33,7 @@ BENCHMARK(fit_with_automatic_derivatives)->Unit(benchmark::kMillisecond);
 void fit_with_numeric_derivatives(benchmark::State& loop) { fit(loop, true); }
 BENCHMARK(fit_with_numeric_derivatives)->Unit(benchmark::kMillisecond);
 
-/// All of `stride calibrate` but files and pictures.
+/// `stride calibrate` without files and pictures.
 void calibrate_five_seconds(benchmark::State& loop) {
   const FiveSeconds clip;
   for (auto _ : loop) {

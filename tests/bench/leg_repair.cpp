@@ -1,4 +1,5 @@
-// 200 seeded cases of swapped legs over three clips: what share of the frames comes out right.
+// Share of frames with the right legs after repair, over 200 seeded cases of swapped legs in three
+// clips.
 #include <fmt/format.h>
 
 #include <array>

@@ -8,8 +8,8 @@
 namespace stride {
 namespace {
 
-/// From the file on disk to every part in every frame, on one core; `real_time`: seconds of video
-/// that are tracked in one.
+/// From the file on disk to every part in every frame, on one core. `real_time`: seconds of video
+/// tracked in a second.
 void track_clip(benchmark::State& state, const char* name, bool toes) {
   cv::setNumThreads(1);
   const std::filesystem::path video = STRIDE_SOURCE_DIR "/videos/" + std::string(name) + ".mp4";

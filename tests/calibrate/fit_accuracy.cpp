@@ -1,5 +1,5 @@
-// The figures of calibrate/README.md: the fit against the truth of the rendered clips, over many
-// seeds. Not among the tests; a short version of it is (rendered_test.cpp).
+// Accuracy of the fit against the truth of the rendered clips over many seeds: the tables of
+// tests/bench/BENCHMARK.md. Not among the tests; a short version of it is (rendered_test.cpp).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ struct Options {
   bool vary = false, known_leg = false;
 };
 
-/// The shipped video, tracked from clicks of another hand.
+/// The shipped video, tracked from clicks with another noise seed.
 Trajectory tracked(const videos::Clip& clip, unsigned seed) {
   const std::filesystem::path video =
       std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / (clip.name + ".mp4");
@@ -42,7 +42,7 @@ Trajectory seen_by_network(const videos::Clip& clip) {
       .trajectory;
 }
 
-/// Mean, and greatest size, of a number of every fit.
+/// Mean and largest magnitude of a number over all fits.
 template <typename Number>
 std::string spread(const std::vector<Accuracy>& all, double unit, Number number) {
   double sum = 0, greatest = 0;

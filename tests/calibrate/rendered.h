@@ -8,20 +8,21 @@
 
 namespace stride {
 
-/// How the marks of a rendered clip come about without a picture.
+/// How the points of a rendered clip are made without pictures.
 struct Marking {
   bool every_frame = false;  // else the eight clicked frames a stride
   double noise_px = 1.5;
   unsigned seed = 1;  // of the noise
 };
 
-/// The truth of a clip with noise, and the way of the background as `stride track` measures it.
+/// The truth of a clip with noise, and the displacement of the background as `stride track`
+/// measures it.
 Trajectory observed(const videos::Clip& clip, const Marking& how);
 
 /// Another runner before another camera: lengths, roll, distance, place in the stride, and seed.
 videos::Clip varied(videos::Clip clip, unsigned seed);
 
-/// What a user may know: the length of the runner's leg, as wrong as it says.
+/// The length of the runner's leg, with the stated error.
 fit::Prior known_leg(const videos::Clip& clip, unsigned seed);
 
 /// A fit against the truth of its clip.

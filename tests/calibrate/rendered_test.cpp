@@ -1,5 +1,5 @@
-// The fit against the truth of the three kinds of rendered runner, from noisy clicks at the paper's
-// rate; `fit_accuracy` measures the same over many more seeds.
+// The fit against the truth of the three kinds of rendered runners, from noisy clicks at the
+// paper's rate; `fit_accuracy` measures the same over many seeds.
 #include "tests/calibrate/rendered.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 
 namespace stride {
 
-/// A runner whose every parameter is known: Hamner, Seth and Delp's angles (2010, subject02, three
+/// A runner with known parameters: the angles of Hamner, Seth and Delp (2010, subject02, three
 /// harmonics) on limbs that are not the model's.
 inline Runner synthetic_runner() {
   constexpr double degree = std::numbers::pi / 180;
@@ -33,12 +33,12 @@ inline Runner synthetic_runner() {
   return r;
 }
 
-/// How the synthetic clip is made.
+/// Options of the synthetic clip.
 struct SyntheticClip {
   double rate_hz = 30, duration_s = 3;
   bool to_left = false, toes = true;
   double noise_px = 0;
-  double outliers = 0;  // part of the marks that are thrown about by 30 to 120 px
+  double outliers = 0;  // share of the points that are displaced by 30 to 120 px
   unsigned seed = 1;
 };
 

@@ -1,6 +1,6 @@
-// A libFuzzer target for each file of ours that people edit or programs leave half written: it
-// loads or is refused by Error, and what loads survives being saved. Built and run as
-// fuzz_import.cpp says.
+// A libFuzzer target for each of our formats that people edit or programs leave half written: a
+// file loads or is refused by Error, and what loads can be saved. See fuzz_import.cpp for how to
+// build and run.
 #include <cstdlib>
 #include <fstream>
 #include <string_view>

@@ -10,7 +10,7 @@
 namespace stride {
 namespace {
 
-/// A run whose parts move on sines of the phase, sampled at odd moments.
+/// A run whose parts move on sines of the phase, sampled at irregular times.
 CalibratedTrajectory sines(int samples) {
   CalibratedTrajectory run;
   run.source = "sines";

@@ -1,4 +1,4 @@
-// The theorems of potential-based reward shaping, held against brute force.
+// The theorems of potential-based reward shaping, checked by brute force.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -37,7 +37,7 @@ TEST(ShapingReward, OfAnEpisodeTelescopes) {
 }
 
 /// A random MDP with `kStates` states, of which the last is terminal, and its greedy policy by
-/// value iteration. Rewards are shaped by Φ; `phi_terminal` is what Φ(terminal) is taken to be.
+/// value iteration. Rewards are shaped by Φ; `phi_terminal` is used for Φ(terminal).
 constexpr int kStates = 7, kActions = 3, kTerminal = kStates - 1;
 
 struct Mdp {
@@ -93,7 +93,7 @@ TEST(ShapingReward, KeepsTheGreedyPolicyUnderAnyPotentialThatIsZeroAtTheEnd) {
     EXPECT_EQ(greedy_policy(mdp, phi, true), unshaped) << "trial " << trial;
     changed_by_a_terminal_potential += greedy_policy(mdp, phi, false) != unshaped;
   }
-  // Grześ 2017: with Φ(terminal) ≠ 0 ending well is paid for, and the optimal policy changes.
+  // Grześ 2017: Φ(terminal) ≠ 0 rewards ending there, and the optimal policy changes.
   EXPECT_GT(changed_by_a_terminal_potential, 15);
 }
 

@@ -8,8 +8,8 @@
 
 namespace stride {
 
-/// Runs `act(confirm)` in a process of its own, which is killed by SIGKILL once it has confirmed so
-/// often, wherever it then is. Returns how often it had in the end.
+/// Runs `act(confirm)` in a child process, which is killed by SIGKILL after so many confirmations.
+/// Returns the number of confirmations.
 template <typename Act>
 int killed_after(int confirmed, Act act) {
   int pipe_ends[2];

@@ -7,7 +7,7 @@
 
 namespace stride {
 
-/// A fresh folder that is removed with all that is in it.
+/// A new folder that is removed with its content.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(

@@ -1,5 +1,4 @@
-// A libFuzzer target for each file that training reads: whatever the bytes, it is read or Error is
-// thrown.
+// A libFuzzer target for each file that training reads: any bytes are read or Error is thrown.
 //     cmake -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DSTRIDE_FUZZ=ON
 //     cmake --build build/fuzz --target fuzz_train_potential
 //     build/fuzz/tests/train/fuzz_train_potential -max_total_time=600 CORPUS_FOLDER

@@ -32,7 +32,7 @@ std::string command_of(const Request& request) {
   return command;
 }
 
-/// `potential` instead of the file that the first shaped arm has, wherever that is used.
+/// Replaces the potential of the first shaped arm by `potential` in all arms that use it.
 void replace_potential(const std::filesystem::path& potential,
                        std::vector<experiments::ExperimentArm>& arms) {
   const auto shaped = std::ranges::find_if(

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the command line says.
+/// The command line's options.
 struct Request {
   std::string potential, reference, out, resume, preset, config;
   std::vector<std::string> assignments;
@@ -49,7 +49,7 @@ fs::path begin(const Request& request) {
   return request.out;
 }
 
-/// A run that exists: only its length may be changed.
+/// An existing run; only its length may be changed.
 fs::path resume(const Request& request) {
   require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
               !request.baseline && request.config.empty() && request.assignments.empty() &&

@@ -14,10 +14,10 @@ struct AgentOptions {
   std::string actor_activation = "elu", critic_activation = "elu";
   bool layer_norm = true;
   double gamma = 0.985;      // a decision; shaping uses the same
-  double tau = 2e-3;         // how far the targets follow in one update
+  double tau = 2e-3;         // of the soft update of the targets
   double actor_rate = 3e-4;  // Adam's α
   double critic_rate = 1e-3;
-  double final_rate = 0.2;  // share of the rates that is left after decay_decisions
+  double final_rate = 0.2;  // factor on the rates after decay_decisions
   double decay_decisions = 4e6;
   double beta2 = 0.999;
   double weight_decay = 0;         // of the critic
@@ -37,7 +37,7 @@ struct UpdateLosses {
 };
 
 /// Deep Deterministic Policy Gradient (Lillicrap et al. 2016): an actor μ, critics Q, and their
-/// slowly following targets μ′, Q′. States come normalised, actions lie in [0, 1].
+/// target networks μ′, Q′. States are normalised, actions are in [0, 1].
 template <typename Scalar>
 class Agent {
  public:
@@ -47,7 +47,7 @@ class Agent {
 
   Agent(const AgentOptions& options, int states, int actions, Random& random);
 
-  /// Equations (1) to (4). `rate` scales both learning rates.
+  /// One update, equations (1) to (4) of train/README.md. `rate` scales both learning rates.
   UpdateLosses update(const Batch<Scalar>& batch, double rate);
 
   const Network& actor() const { return actor_; }

@@ -56,9 +56,9 @@ void Explorer<Scalar>::start_episode(const network::Policy<Scalar>& policy,
   reset();
 }
 
-/// Noise on the weights and biases of the actor (Plappert et al. 2018), of the size that changes
-/// its actions by the distance wanted, on states from the buffer. Layer normalisation, which makes
-/// layers alike in their response, keeps its scale and shift.
+/// Noise on the weights and biases of the actor (Plappert et al. 2018), scaled such that it changes
+/// the actions on states from the buffer by the wanted distance. Scale and shift of the layer
+/// normalisation are not perturbed.
 template <typename Scalar>
 void Explorer<Scalar>::perturb(const network::Policy<Scalar>& policy,
                                const ReplayBuffer<Scalar>& buffer) {

@@ -23,15 +23,15 @@ struct ExplorationOptions {
   double parameter_distance = 0.2;  // root mean square change of actions that it aims at
 };
 
-/// What a slot remembers from one decision to the next, as a checkpoint keeps it. The environment
-/// is not in it: it is put back by repeating the episode's actions.
+/// The state of a slot between decisions, as in a checkpoint. It does not contain the environment,
+/// which is restored by repeating the episode's actions.
 template <typename Scalar>
 struct ExplorerState {
   using Vector = typename network::Mlp<Scalar>::Vector;
 
   Random random;
   bool running = false;  // there is an episode
-  bool over = false;     // which has ended, and is yet to be recorded and replaced
+  bool over = false;     // it has ended, but is not recorded and replaced yet
   std::uint64_t episode_seed = 0;
   std::vector<Scalar> actions;  // of the episode so far, one after the other
   double sigma_factor = 0;      // of the episode's noise
@@ -41,9 +41,8 @@ struct ExplorerState {
   double simulated_s = 0;  // since the run began
 };
 
-/// One environment with everything that belongs to it: the agent's view, the repeated action, the
-/// phase, the noise, the random numbers. Slots share nothing that changes, so the order in which
-/// threads serve them does not matter.
+/// One environment with its observer, action repeat, phase, noise and random numbers. Slots share
+/// no mutable state, so the order in which threads serve them does not matter.
 template <typename Scalar>
 class Explorer {
  public:
@@ -60,8 +59,8 @@ class Explorer {
   Explorer(std::unique_ptr<environment::Environment> environment, environment::Observer observer,
            const Setup& setup, std::uint64_t seed);
 
-  /// One round: one decision, or, after the end of an episode, its last state and a new start.
-  /// Writes the record, its features and its action.
+  /// One round: a decision or, after the end of an episode, its last state and a reset. Writes the
+  /// record, its features and its action.
   void decide(const network::Policy<Scalar>& policy, const ReplayBuffer<Scalar>& buffer,
               typename ReplayBuffer<Scalar>::Record& record, Eigen::Ref<Vector> features,
               Eigen::Ref<Vector> action);
@@ -87,7 +86,7 @@ class Explorer {
   void start_episode(const network::Policy<Scalar>& policy, const ReplayBuffer<Scalar>& buffer);
   void perturb(const network::Policy<Scalar>& policy, const ReplayBuffer<Scalar>& buffer);
   void reset();
-  /// Repeats an action; returns what became of the episode and adds up its reward.
+  /// Repeats an action; returns the outcome and accumulates the reward.
   Outcome repeat(const Eigen::Ref<const Vector>& action, double& reward);
   double phase() const;
 

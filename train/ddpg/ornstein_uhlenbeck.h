@@ -6,9 +6,9 @@
 
 namespace stride::ddpg {
 
-/// Ornstein–Uhlenbeck noise on actions, one step a decision (Lillicrap et al. 2016, Sec. 7):
-/// x ← x − θx + σ√(2θ − θ²) ξ, so that σ is the standard deviation in the long run whatever θ is;
-/// θ = 1 is white noise.
+/// Ornstein–Uhlenbeck noise on actions, one step a decision (Lillicrap et al. 2016, Sec. 7): x ← x
+/// − θx + σ√(2θ − θ²) ξ, so that σ is the stationary standard deviation for any θ; θ = 1 is white
+/// noise.
 struct OuNoise {
   double theta = 0.1;
   Eigen::VectorXd x;
@@ -19,7 +19,7 @@ struct OuNoise {
     for (double& v : x) v += -theta * v + kick * normal(random);
     return x;
   }
-  /// Draws x from its stationary distribution: an episode has no quiet start.
+  /// Draws x from its stationary distribution, so that noise does not start at 0.
   void start(Eigen::Index size, double sigma, Random& random) {
     x.resize(size);
     for (double& v : x) v = sigma * normal(random);

@@ -10,8 +10,8 @@
 namespace stride::ddpg {
 namespace {
 
-/// Asks for large pages, before the memory is first written: what is read all over the place spends
-/// a quarter of its time on the translation of addresses otherwise.
+/// Requests large pages before the memory is first written. Random reads otherwise spend a quarter
+/// of their time on address translation.
 template <typename Element>
 void advise_large_pages(Element* data, std::size_t count) {
   constexpr std::size_t kPage = 4096;
@@ -20,7 +20,7 @@ void advise_large_pages(Element* data, std::size_t count) {
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-/// Has memory brought near while other things are done.
+/// Prefetches memory.
 template <typename Element>
 void prefetch(const Element* data, Eigen::Index count) {
   constexpr std::ptrdiff_t kLine = 64;

@@ -10,7 +10,7 @@
 
 namespace stride::ddpg {
 
-/// What became of an environment in one round of decisions.
+/// The outcome of one round in one environment.
 enum class Outcome : std::uint8_t {
   continued,   // a decision; its next state is the environment's next record
   terminated,  // a decision that ended in a fall
@@ -25,8 +25,8 @@ struct Batch {
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> states, actions, next_states;
   Eigen::Matrix<Scalar, 1, Eigen::Dynamic> rewards, discounts;
 
-  /// Which decisions they are. All are drawn before the first is read, so that the memory, which is
-  /// far larger than the caches, is fetched meanwhile.
+  /// Indices of the sampled decisions. All are drawn before the first is read, so that memory can
+  /// be prefetched.
   struct Draw {
     std::int64_t round = 0;
     int environment = 0;
@@ -41,15 +41,16 @@ struct SampleOptions {
   double gamma = 0.99;
   double reward_scale = 1;
   bool shaped = false;  // add F = γΦ(s′) − Φ(s) of every step
-  bool mirror = true;   // half of the samples are mirrored: as if each was stored twice
+  bool mirror = true;   // half of the samples are mirrored, as if each was stored twice
 };
 
-/// The decisions of several environments in lockstep: every round adds one record of each, so the
-/// record after (round, environment) is (round + 1, environment). States are stored once, with the
-/// phase and the pose that shaping needs, so that the potential can be changed afterwards.
+/// The decisions of several environments in lockstep. Every round adds one record of each
+/// environment, so the successor of (round, environment) is (round + 1, environment). States are
+/// stored once, with phase and pose for the shaping, so that the potential can be changed
+/// afterwards.
 ///
-/// Room for the records of a round in progress is kept apart from what can be sampled: while
-/// environments write the rounds from `rounds()` on, up to `lead` of them, a learner may sample.
+/// Rounds in progress are separate from those that can be sampled: a learner may sample while
+/// environments write the rounds from `rounds()` on, at most `lead` of them.
 template <typename Scalar>
 class ReplayBuffer {
  public:
@@ -75,13 +76,13 @@ class ReplayBuffer {
 
   const Layout& layout() const { return layout_; }
 
-  /// Complete rounds that were ever added, and the first that is still kept.
+  /// Number of complete rounds added so far, and the first one that is still stored.
   std::int64_t rounds() const { return rounds_; }
   std::int64_t first_round() const { return std::max<std::int64_t>(0, rounds_ - kept_rounds_); }
-  /// Decisions that can be sampled now, upper bound (last states of episodes included).
+  /// Upper bound of the number of decisions that can be sampled (includes last states of episodes).
   std::int64_t size() const { return (rounds_ - first_round()) * layout_.environments; }
 
-  /// Where to write or read the record of a round (≥ first_round(), < rounds() + lead).
+  /// The record of a round in [first_round(), rounds() + lead).
   Record& record(std::int64_t round, int environment);
   const Record& record(std::int64_t round, int environment) const;
   auto features(std::int64_t round, int environment) {
@@ -97,9 +98,9 @@ class ReplayBuffer {
     return actions_.col(position(round, environment));
   }
 
-  /// Makes the next `rounds` rounds, all written, available.
+  /// Makes the next `rounds` rounds available; all must be written.
   void publish(int rounds);
-  /// Continues a stored buffer: the rounds before `rounds` were written by the caller.
+  /// Continues a stored buffer whose rounds before `rounds` were written by the caller.
   void set_rounds(std::int64_t rounds) { rounds_ = rounds; }
 
   /// Whether anything can be sampled.
@@ -108,7 +109,7 @@ class ReplayBuffer {
   /// Draws decisions uniformly, with replacement.
   void sample(const SampleOptions& options, Random& random, Batch<Scalar>& batch) const;
 
-  /// Computes Φ of every record anew from the stored poses and phases.
+  /// Recomputes Φ of every record from the stored poses and phases.
   void set_potential(const Potential& potential);
 
  private:

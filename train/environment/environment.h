@@ -9,9 +9,9 @@
 
 namespace stride::environment {
 
-/// What one step did. An episode ends in one of two ways, and they mean different things to a
-/// learner: a terminated state has no future (value 0, Φ = 0); a truncated one goes on unseen, so
-/// its value is bootstrapped and its Φ is kept.
+/// The result of one step. An episode ends in one of two ways: a terminated state has no future
+/// (value 0, Φ = 0); a truncated one would continue, so its value is bootstrapped and its Φ is
+/// kept.
 struct Step {
   Eigen::VectorXd observation;  // of the state after the step
   double reward = 0;
@@ -20,9 +20,9 @@ struct Step {
   bool failed = false;      // terminated because the state could not be integrated
 };
 
-/// What an environment is, as far as a learner has to know.
+/// What a learner has to know about an environment.
 struct EnvironmentSpec {
-  /// One name an element, in order. Left and right are told by a part `_r` or `_l` of the name
+  /// One name for each element, in order. The part `_r` or `_l` of a name tells right from left
   /// (`knee_angle_r`, `talus_l_vx`): mirroring in the sagittal plane swaps the two elements and
   /// leaves every other one as it is.
   std::vector<std::string> observation_names;
@@ -31,11 +31,11 @@ struct EnvironmentSpec {
   int max_steps = 1000;  // the time limit, in steps
 };
 
-/// Something that learns by steps. One thread at a time; two environments share nothing.
+/// An environment for reinforcement learning. Not thread-safe; environments share nothing.
 ///
-/// Deterministic: reset(seed) forgets everything before it, and the same seed followed by the same
-/// actions gives the same steps, bit by bit. Training resumes by this: a checkpoint keeps the seed
-/// and the actions of the running episode and repeats them.
+/// Deterministic: the same seed and actions give the same steps, bit by bit, whatever happened
+/// before reset(seed). Checkpoints rely on this: they store the seed and the actions of the running
+/// episode and repeat them.
 ///
 /// The runner's observation: first the competition's 41 in its order, in the ground's axes, not
 /// centred; then what the features of the paper are made of: `_vx`, `_vy` of head, torso, toes_l,
@@ -55,15 +55,15 @@ class Environment {
   /// the end of an episode. The reference stays valid until the next reset() or step().
   virtual const Step& step(const Eigen::VectorXd& action) = 0;
 
-  /// Of the current state: what the potential compares.
+  /// The pose of the current state, for the potential.
   virtual Pose pose() const = 0;
 
   /// Simulated time since reset(), and the distance covered since then (of the pelvis).
   virtual double time_s() const = 0;
   virtual double distance_m() const = 0;
 
-  /// Phase of the stride into which reset() put the runner: 0 unless the initial state was drawn
-  /// from a reference motion.
+  /// Phase of the stride after reset(): 0 unless the initial state was drawn from a reference
+  /// motion.
   virtual double initial_phase() const { return 0; }
 };
 

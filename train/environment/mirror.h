@@ -6,14 +6,14 @@
 
 namespace stride::environment {
 
-/// Reflection of a vector of named quantities in the sagittal plane, its own inverse:
-/// mirrored[i] = sign[i] · x[source[i]].
+/// Reflection of a vector of named quantities in the sagittal plane, an involution: mirrored[i] =
+/// sign[i] · x[source[i]].
 struct Mirror {
   std::vector<int> source;
   std::vector<double> sign;
   std::vector<int> negated;  // where sign is −1
 
-  /// Of columns and vectors whose elements lie side by side; not in place.
+  /// For contiguous columns and vectors; not in place.
   template <typename In, typename Out>
   void apply(const In& x, Out&& mirrored) const {
     const auto* from = x.data();
@@ -24,7 +24,7 @@ struct Mirror {
 };
 
 /// `knee_angle_r` ↔ `knee_angle_l`, `talus_r_vx` ↔ `talus_l_vx`: the parts `r` and `l` of the name,
-/// between underscores, change places.
+/// between underscores, are exchanged.
 std::string mirrored_name(std::string_view name);
 
 /// Swaps right and left; changes the sign of `phase_sin` and `phase_cos` (half a stride later) and

@@ -17,12 +17,12 @@ struct ObservationOptions {
 };
 
 /// The agent's view of the environment: 41 → 112 features as in the paper (Sec. "State
-/// representation"), whose list only has its length in common with theirs, since they published
-/// no more. The 71: of ten points (head, torso, knees, ankles, heels, toes) the position relative
-/// to the pelvis, the velocity and the acceleration; the accelerations of pelvis and centre of
-/// mass; the angular accelerations of pelvis, hips, knees and ankles. Knee, ankle and heel are the
-/// origins of tibia, talus and calcn. An acceleration is the difference of two velocities one
-/// decision apart, 0 in the first observation of an episode.
+/// representation"), which does not list its features; only their number is the same. The 71: of
+/// ten points (head, torso, knees, ankles, heels, toes) the position relative to the pelvis, the
+/// velocity and the acceleration; the accelerations of pelvis and centre of mass; the angular
+/// accelerations of pelvis, hips, knees and ankles. Knee, ankle and heel are the origins of tibia,
+/// talus and calcn. An acceleration is the difference of two velocities one decision apart, 0 in
+/// the first observation of an episode.
 class Observer {
  public:
   /// `decision_s`: simulated time between two observations. Throws Error naming what the
@@ -33,7 +33,7 @@ class Observer {
 
   /// The first observation of an episode.
   void start(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features);
-  /// Each following one, a decision later.
+  /// Each following observation, one decision later.
   void follow(const Eigen::VectorXd& observation, double phase, Eigen::VectorXd& features);
 
  private:
@@ -51,7 +51,7 @@ class Observer {
   Eigen::VectorXd last_rates_;
 };
 
-/// The competition's observation: the first elements of the runner's.
+/// Number of the competition's observations, the first elements of the runner's.
 inline constexpr int kCompetitionObservations = 41;
 
 }  // namespace stride::environment

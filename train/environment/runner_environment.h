@@ -24,8 +24,8 @@ struct RunnerOptions {
   int max_steps = competition::kMaxSteps;
   std::string foot = "ankle";  // of pose(): "ankle" (origin of talus) or "toe" (of toes)
   /// Reference state initialisation: this share of the episodes starts from a random sample of a
-  /// calibrated run, with its speeds. Those episodes start with fibres in equilibrium whatever the
-  /// rules, and raised where the fit has put a foot into the floor deeper than standing does.
+  /// calibrated run, with its speeds and with fibres in equilibrium whatever the rules. The runner
+  /// is raised where a foot would be deeper in the floor than in standing.
   std::optional<CalibratedTrajectory> reference;
   double reference_share = 1;
   /// Of the episodes have no obstacles, and at most three, whatever the difficulty says.
@@ -35,8 +35,8 @@ struct RunnerOptions {
 };
 
 /// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation, reward and
-/// end of an episode as in the competition (see Sensors, Reward, Rules), with fall and time limit
-/// told apart. An action is the excitation of each muscle for 0.01 s.
+/// end of an episode as in the competition (see Sensors, Reward, Rules), which distinguish a fall
+/// from the time limit. An action is the excitation of each muscle for 0.01 s.
 class RunnerEnvironment final : public Environment {
  public:
   /// Throws Error naming the option that is out of range, or why the engine refuses the model.
@@ -54,13 +54,14 @@ class RunnerEnvironment final : public Environment {
 
   const simulation::Engine& engine() const { return *engine_; }
   const competition::Scene& scene() const { return scene_; }
-  /// Of the current state.
+  /// For the current state.
   const simulation::RunnerKinematics& kinematics() const { return kinematics_; }
-  /// Of the last step.
+  /// For the last step.
   const competition::Reward& reward() const { return reward_; }
   const simulation::AdvanceReport& report() const { return report_; }
 
-  /// How every episode since construction ended; those that were left by reset() are `abandoned`.
+  /// Counts how the episodes since construction ended; those that were cut off by reset() are
+  /// `abandoned`.
   struct Tally {
     long steps = 0, episodes = 0;
     long falls = 0, time_limits = 0, failures = 0, abandoned = 0;

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Not a number becomes null.
+/// NaN becomes null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json to_json(const std::pair<double, double>& interval) {
@@ -28,7 +28,7 @@ Json to_json(const std::pair<double, double>& interval) {
 
 Json to_json(const rollout::GaitBand& band) { return {band.low, band.high}; }
 
-/// Null where humans do not run.
+/// Null at speeds at which humans do not run.
 Json to_json(const std::optional<rollout::HumanGait>& human) {
   if (!human) return {};
   return {{"cadence_per_min", to_json(human->cadence_per_min)},

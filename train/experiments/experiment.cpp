@@ -25,7 +25,7 @@ struct Job {
   fs::path run;
 };
 
-/// Paired seeds next to each other, so that what is done at any time can be compared.
+/// Paired seeds next to each other, so that an unfinished experiment can be compared.
 std::vector<Job> jobs_of(const ExperimentOptions& options) {
   std::vector<Job> jobs;
   for (int seed = 1; seed <= options.experiment.seeds; ++seed)
@@ -91,7 +91,7 @@ std::string work_on(const Job& job, const std::atomic<bool>& stop) {
   return summary.brief_report();
 }
 
-/// Copies what a reader needs of each run.
+/// Copies configuration and curves of each run.
 void copy_runs(const std::vector<Job>& jobs, const fs::path& report) {
   for (const Job& job : jobs) {
     const fs::path to = report / job.arm->name / std::to_string(job.seed);

@@ -13,7 +13,7 @@ namespace stride::experiments {
 namespace fs = std::filesystem;
 namespace {
 
-/// The settings of each section, in the file's order; those before the first section under "".
+/// The settings of each section in the file's order; those before the first section are under "".
 using Sections = std::vector<std::pair<std::string, std::vector<TomlSetting>>>;
 
 Sections sections_of(const fs::path& file) {
@@ -31,7 +31,7 @@ Sections sections_of(const fs::path& file) {
   return sections;
 }
 
-/// What all arms share: of the four keys, `seeds` may be missing.
+/// The settings of all arms. Of the four keys `seeds` may be missing.
 void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file,
                   ExperimentFile& experiment) {
   std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)}};
@@ -47,7 +47,7 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
     require(texts.contains(key), "{}: {} is missing", file.string(), key);
   experiment.title = texts["title"];
   experiment.preset = texts["preset"];
-  // Whole numbers are read and checked as the settings of a run are.
+  // Integers are read and checked like the settings of a run.
   training::TrainOptions numbers;
   training::set_options(
       {{{"run"}, "decisions", {texts["decisions"]}}, {{"run"}, "seed", {texts["seeds"]}}},

@@ -8,7 +8,7 @@
 
 namespace stride::experiments {
 
-/// What the runs of one arm of an experiment have in common: all but their seed.
+/// An arm of an experiment: everything but the seed of its runs.
 struct ExperimentArm {
   std::string name;
   std::filesystem::path potential;  // empty: none
@@ -38,8 +38,8 @@ struct ExperimentFile {
 /// NAME, or the path of an experiment.toml. Throws Error with the list of experiments.
 std::filesystem::path experiment_file(const std::string& name);
 
-/// Each `settings` (KEY=VALUE) holds in all arms that do not say otherwise. Throws Error naming
-/// file, key and cure.
+/// Each of `settings` (KEY=VALUE) applies to all arms that do not set the key themselves. Throws
+/// Error naming file, key and cure.
 ExperimentFile load_experiment(const std::filesystem::path& file,
                                const std::vector<std::string>& settings = {});
 

@@ -11,7 +11,7 @@
 
 namespace stride::experiments {
 
-/// Shares of the budget at which arms are compared, and distances in 10 s that they are timed to.
+/// Shares of the budget at which arms are compared, and distances in 10 s to which they are timed.
 inline constexpr std::array kBudgetShares{0.1, 0.2, 0.3, 0.5, 1.0};
 inline constexpr std::array kDistances_m{5.0, 10.0, 15.0, 20.0, 25.0};
 /// The share of the budget over which evaluations are averaged.
@@ -22,13 +22,13 @@ inline constexpr double kWindowShare = 0.05;
 /// NaN if there is none.
 double distance_at(const Table& curve, double decisions, double window);
 
-/// Where a curve first reached a distance.
+/// The first evaluation of a curve that reached a distance.
 struct Reached {
   double decisions = 0;
   double wall_s = 0;
 };
 
-/// What the curves of one arm say, an element a seed.
+/// The results of one arm, with an element for each seed.
 struct ArmResult {
   std::string label;
   /// Mean of the evaluations in the twentieth of the budget that ends at each of kBudgetShares, or

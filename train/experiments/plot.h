@@ -25,13 +25,13 @@ struct Arm {
 /// baseline/1 baseline/2 shaped/1 are two arms. Any other run is an arm of its own.
 std::vector<Arm> arms_of(const std::vector<std::filesystem::path>& runs);
 
-/// Draws mean ± standard error over the runs of each arm with gnuplot, from the figures and the
-/// script that are left beside the picture. Runs are interpolated to common abscissae, as far as
-/// all of an arm go. Throws Error naming the run or column, or where gnuplot fails.
+/// Draws mean ± standard error over the runs of each arm with gnuplot; data and script stay beside
+/// the picture. Runs are interpolated to common abscissae up to the end of the shortest. Throws
+/// Error naming the run or column, or if gnuplot fails.
 void plot(const std::vector<Arm>& arms, const PlotOptions& options);
 
-/// Draws whenever a curve has grown, until `stop` is set: for a viewer that loads the picture anew.
-/// Runs without figures are waited for; `messages` (or null) is told why, and of every picture.
+/// Redraws whenever a curve grows, until `stop` is set. Waits for runs without data; `messages` (or
+/// null) receives the reason, and a line for every picture.
 void watch(const std::vector<Arm>& arms, const PlotOptions& options, const std::atomic<bool>& stop,
            std::FILE* messages);
 

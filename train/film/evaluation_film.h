@@ -13,8 +13,8 @@ namespace stride::film {
 std::optional<SourceStride> find_source(const Potential& potential,
                                         const std::filesystem::path& near);
 
-/// The rollout at half the rate of its steps (50 frames a second), beside the source in phase, and
-/// its frame in the middle as a picture: `file` with the extension .jpg.
+/// Films the rollout at 50 frames a second beside the source video in phase, and writes the middle
+/// frame as `file` with the extension .jpg.
 void write_film(const rollout::Rollout& rollout, const osim::Model& model, const std::string& title,
                 const std::optional<SourceStride>& source, const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@
 
 namespace stride::film {
 
-/// The simulated runner at one moment.
+/// The simulated runner in one frame.
 struct RunnerPicture {
   simulation::RunnerState state;
   simulation::RunnerKinematics kinematics;  // of that state
@@ -24,7 +24,7 @@ struct FilmOptions {
   std::string title;          // in the upper right corner
 };
 
-/// What of a model is drawn, found once.
+/// The parts of a model that are drawn.
 struct FilmModel {
   struct Leg {
     int femur = -1, tibia = -1, talus = -1, calcn = -1, toes = -1;  // indices into Model::bodies

@@ -15,7 +15,7 @@ cv::Scalar mixed(const cv::Scalar& a, const cv::Scalar& b, double weight);
 simulation::PlanarVector between(simulation::PlanarVector a, simulation::PlanarVector b,
                                  double weight);
 
-/// A picture with the ground's axes: metres in, anti-aliased drawing out.
+/// A canvas in axes of the ground, in metres, with anti-aliasing.
 class Canvas {
  public:
   /// Of that size times kOversampling.

@@ -8,12 +8,12 @@
 
 namespace stride::film {
 
-/// One stride of the source video, to be shown again and again in phase with the runner.
+/// One stride of the source video, repeated in phase with the runner.
 struct SourceStride {
   std::vector<double> phase;  // ascending, [0, 1)
   std::vector<cv::Mat> frames;
 
-  /// The frame nearest to that phase (any real number, taken modulo 1).
+  /// The frame nearest to a phase (any real number, modulo 1).
   const cv::Mat& at(double phase) const;
 };
 

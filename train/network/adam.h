@@ -7,7 +7,7 @@ namespace stride::network {
 
 struct AdamOptions {
   double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-8;
-  double gradient_norm_limit = 0;  // longer gradients are scaled down to it; 0: no limit
+  double gradient_norm_limit = 0;  // larger gradients are scaled down to it; 0: no limit
   double weight_decay = 0;         // decoupled (Loshchilov, Hutter 2019), times the rate
 };
 

@@ -41,7 +41,7 @@ void activate(Activation activation, Matrix& x) {
   }
 }
 
-/// delta ← gradient ∘ f′, where f′ is written by the activation's own output y.
+/// delta ← gradient ∘ f′, with f′ expressed by the activation's output y.
 template <typename Matrix, typename Gradient>
 void derive(Activation activation, const Matrix& y, const Gradient& gradient, Matrix& delta) {
   using Scalar = typename Matrix::Scalar;

@@ -25,8 +25,8 @@ struct MlpShape {
 
 inline constexpr double kVarianceFloor = 1e-5;  // of the layer normalisation, PyTorch's value
 
-/// A multilayer perceptron with its gradients: affine maps, optional layer normalisation (Ba et
-/// al. 2016), activation. A batch is a matrix with one column a sample. All parameters lie in one
+/// A multilayer perceptron with gradients: affine maps, optional layer normalisation (Ba et al.
+/// 2016), activation. A batch is a matrix with a column for each sample. All parameters are in one
 /// vector, layer by layer: weight (outputs × inputs, column by column), bias, and scale and shift
 /// of the normalisation. Float or double.
 template <typename Scalar>
@@ -35,8 +35,8 @@ class Mlp {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// What forward() leaves for backward(). One a thread and batch size: it allocates only when the
-  /// size of the batch changes.
+  /// Intermediate results of forward() for backward(). Use one for each thread and batch size: it
+  /// allocates only when the size of the batch changes.
   struct Workspace {
     std::vector<Matrix> output;      // of each layer, after its activation
     std::vector<Matrix> normalised;  // before scale and shift
@@ -58,16 +58,16 @@ class Mlp {
   const Vector& parameters() const { return parameters_; }
   std::vector<Block> blocks() const;
 
-  /// Weights and biases uniform in ±1/√inputs of the layer; of the last layer in ±last_range
-  /// (Lillicrap et al. 2016, Sec. 7); scale 1, shift 0.
+  /// Draws weights and biases uniformly from ±1/√inputs, those of the last layer from ±last_range
+  /// (Lillicrap et al. 2016, Sec. 7). Scale 1, shift 0.
   void initialise(Random& random, double last_range);
 
-  /// outputs × batch; stays valid in the workspace.
+  /// Returns outputs × batch, which stay valid in the workspace.
   const Matrix& forward(const Eigen::Ref<const Matrix>& input, Workspace& workspace) const;
 
-  /// After forward() of the same input: the gradient of a loss whose gradient by the output is
-  /// `output_gradient`. `gradient`, unless null, is set to that by the parameters;
-  /// workspace.input_gradient to that by the input, if `by_input`.
+  /// Backpropagates the loss gradient with respect to the output, `output_gradient`, after
+  /// forward() of the same input. Sets `gradient`, unless null, to the gradient with respect to the
+  /// parameters, and workspace.input_gradient to the one with respect to the input if `by_input`.
   void backward(const Eigen::Ref<const Matrix>& input,
                 const Eigen::Ref<const Matrix>& output_gradient, Workspace& workspace,
                 Vector* gradient, bool by_input) const;

@@ -17,7 +17,7 @@ class Normaliser {
   explicit Normaliser(const environment::Mirror& mirror);
 
   void add(const Eigen::Ref<const Eigen::VectorXd>& features);
-  /// Makes what was added visible in mean() and inverse_sd().
+  /// Updates mean() and inverse_sd() with the samples added so far.
   void publish();
 
   const Eigen::VectorXd& mean() const { return mean_; }
@@ -35,7 +35,7 @@ class Normaliser {
               .max(-limit);
   }
 
-  /// What a checkpoint keeps.
+  /// The state for a checkpoint.
   struct State {
     double count = 0;
     Eigen::VectorXd mean, squares;  // Σ(x − mean)², not mirrored
@@ -43,7 +43,7 @@ class Normaliser {
   const State& state() const { return state_; }
   void set_state(const State& state);
 
-  /// The published figures of an agent that learns no more.
+  /// Restores mean and inverse deviation of a trained agent.
   void fix(const Eigen::VectorXd& mean, const Eigen::VectorXd& inverse_sd) {
     mean_ = mean;
     inverse_sd_ = inverse_sd;

@@ -13,17 +13,17 @@
 
 namespace stride::network {
 
-/// What an agent acts by: the actor, and how its inputs are normalised.
+/// A policy: the actor and the normalisation of its inputs.
 template <typename Scalar>
 struct Policy {
   Mlp<Scalar> actor;
   Normaliser normaliser;
-  double sigma = 0;  // of the noise with which it explores now
+  double sigma = 0;  // of the current exploration noise
 };
 
-/// What came of an episode.
+/// The outcome of an episode.
 struct EpisodeSummary {
-  double reward = 0;  // of the environment: neither scaled nor shaped
+  double reward = 0;  // of the environment, neither scaled nor shaped
   double distance_m = 0, time_s = 0;
   bool fell = false, failed = false;
 };
@@ -37,7 +37,7 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, environment::Environmen
                            int action_repeat, std::uint64_t seed,
                            const std::function<void(const Eigen::VectorXd& action)>& after_step);
 
-/// What travels with a policy: agent.safetensors. Tensors, float32 or float64, row-major:
+/// Describes a policy file, agent.safetensors. Tensors, float32 or float64, row-major:
 /// `actor.<layer>.weight` [outputs, inputs], `.bias`, `.norm.scale`, `.norm.shift` (of layer
 /// normalisation, variance + 1e-5, before the activation), `normaliser.mean`,
 /// `normaliser.inverse_sd` [features]. action = sigmoid(actor(clip((features − mean) · inverse_sd,
@@ -48,17 +48,18 @@ void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& f
                  const std::vector<std::string>& actions, int action_repeat,
                  const std::filesystem::path& file);
 
-/// The policy file of a run: `agent` is best, or agent: the last one. Throws Error otherwise.
+/// The policy file of a run. `agent` is "best" or "agent" (the last one); throws Error otherwise.
 std::filesystem::path agent_file(const std::filesystem::path& run, const std::string& agent);
 
-/// What a policy file says its features and actions are.
+/// The names of features and actions in a policy file.
 struct PolicyNames {
   std::vector<std::string> features, actions;
   int action_repeat = 1;
 };
 PolicyNames load_policy_names(const std::filesystem::path& file);
 
-/// Reads it back. Throws Error naming the file, also where its features or actions are not these.
+/// Reads a policy. Throws Error naming the file, also if its features or actions are others than
+/// these.
 template <typename Scalar>
 Policy<Scalar> load_policy(const std::filesystem::path& file,
                            const std::vector<std::string>& features,

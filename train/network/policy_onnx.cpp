@@ -24,12 +24,12 @@ const char* operation_of(Activation activation) {
   return "";
 }
 
-/// Puts an ONNX graph together, a chain of operations on rows [1, n].
+/// Builds an ONNX graph, a chain of operations on rows [1, n].
 class Graph {
  public:
   OnnxModel model = {};
 
-  /// An operation on values of these names; returns the name of what it gives.
+  /// Adds an operation on the named values; returns the name of its result.
   std::string add(const std::string& op, const std::vector<std::string>& inputs,
                   decltype(OnnxNode::attributes) attributes = {}) {
     const std::string result = fmt::format("{}.{}", model.nodes.size(), op);
@@ -73,9 +73,9 @@ Eigen::MatrixXd parameters(const Mlp<Scalar>& mlp, std::size_t i, const std::str
   return {};
 }
 
-/// An affine map and the layer normalisation of what it gives. The mean over the neurons is taken
-/// off the map itself, which is the same, since both are linear; the variance is the product of the
-/// squares with a matrix of 1/n: OpenCV 4.6 neither takes means of rows nor divides by a scalar.
+/// An affine map and its layer normalisation. OpenCV 4.6 supports neither means of rows nor
+/// division by a scalar. So the mean over the neurons is subtracted from the parameters of the map,
+/// which is equivalent, and the variance is the product of the squares with a matrix of 1/n.
 template <typename Scalar>
 std::string normalised_layer(Graph& graph, const Mlp<Scalar>& mlp, std::size_t i, std::string x) {
   Eigen::MatrixXd weight = parameters(mlp, i, "weight");

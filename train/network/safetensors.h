@@ -10,9 +10,9 @@
 
 namespace stride::network {
 
-/// Named arrays in a file of the safetensors format: 8 bytes length, a JSON header, the data. Any
-/// tool that reads safetensors reads ours; we read F32, F64, I64 and U8. Arrays are row-major there
-/// and column-major here: matrices are transposed on the way.
+/// Named arrays in a file of the safetensors format: 8 bytes length, a JSON header, the data.
+/// Supports F32, F64, I64 and U8. Arrays are row-major in the file and column-major in memory, so
+/// matrices are transposed.
 class Tensors {
  public:
   struct Tensor {
@@ -32,8 +32,8 @@ class Tensors {
   void put_number(const std::string& name, double value);
   void put_bytes(const std::string& name, std::string_view bytes);
 
-  /// Reads an array of known size. Throws Error naming file and tensor where it is missing, or of
-  /// another size or type than the caller's, or holds a number that is not finite.
+  /// Reads an array of known size. Throws Error naming file and tensor if it is missing, has
+  /// another size or type, or holds a number that is not finite.
   template <typename Derived>
   void get(const std::string& name, Eigen::DenseBase<Derived>& value) const;
   std::int64_t integer(const std::string& name) const;
@@ -49,7 +49,7 @@ class Tensors {
   const Tensor& find(const std::string& name, std::string_view type) const;
 };
 
-/// Errors name the file and what is wrong with it (truncated, not safetensors, …).
+/// Errors name the file and the defect (truncated, not safetensors, …).
 Tensors load_tensors(const std::filesystem::path& file);
 /// Writes atomically.
 void save(const Tensors& tensors, const std::filesystem::path& file);

@@ -18,7 +18,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Runs of equal values shorter than `shortest` frames take the value before them.
+/// Replaces runs of equal values shorter than `shortest` frames by the value before them.
 void remove_short_runs(std::vector<bool>& values, std::size_t shortest) {
   std::size_t start = 0;
   for (std::size_t i = 1; i <= values.size(); ++i) {

@@ -6,19 +6,19 @@
 
 namespace stride::rollout {
 
-/// A time that a foot spends on the ground: a stance.
+/// A stance: the time of one foot on the ground.
 struct FootContact {
   int side = 0;                   // 0 right, 1 left
   double start_s = 0, end_s = 0;  // of contact
   double start_x_m = 0;           // of the ankle at the strike
 };
 
-/// Stances of both feet, by time: a foot is on the ground while it bears more than 5 % of the
-/// body's weight; gaps and contacts shorter than 30 ms are noise. A stance that begins with the
-/// rollout or is cut by its end is left out.
+/// Stances of both feet in order of time: a foot is on the ground while it bears more than 5 % of
+/// the body weight; gaps and contacts shorter than 30 ms are ignored. Stances cut by the beginning
+/// or the end of the rollout are omitted.
 std::vector<FootContact> foot_contacts(const Rollout& rollout, const osim::Model& model);
 
-/// Figures of running, over the steps of the rollout; NaN where there are too few.
+/// Gait parameters over the steps of a rollout; NaN where there are too few steps.
 struct GaitSummary {
   double speed_m_s = 0;             // distance over time
   double last_speed_m_s = 0;        // over the last third of the time

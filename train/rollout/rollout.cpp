@@ -10,7 +10,7 @@
 namespace stride::rollout {
 namespace {
 
-/// The body whose origin is that part of the runner.
+/// The body whose origin is a part of the runner.
 int body_of(BodyPart part, const osim::Model& model) {
   switch (part) {
     case BodyPart::pelvis:

@@ -8,7 +8,7 @@
 
 namespace stride::rollout {
 
-/// The runner at one moment of an episode.
+/// One frame of an episode.
 struct RolloutFrame {
   simulation::RunnerState state;
   simulation::RunnerKinematics kinematics;
@@ -16,7 +16,7 @@ struct RolloutFrame {
   double phase = 0;                       // of the potential's stride; 0 without one
 };
 
-/// An episode from its start to its end, a frame each step.
+/// An episode, with a frame for each step.
 struct Rollout {
   network::EpisodeSummary summary;
   std::vector<simulation::Obstacle> obstacles;
@@ -28,8 +28,8 @@ Rollout record_episode(const network::Policy<Scalar>& policy,
                        environment::RunnerEnvironment& environment, environment::Observer& observer,
                        const Potential* potential, int action_repeat, std::uint64_t seed);
 
-/// The part of a rollout from `from_s` on as a demonstration, to make a potential of. Throws Error
-/// if it does not hold two strides of the right foot, with the cure.
+/// The part of a rollout from `from_s` on as a demonstration. Throws Error with the cure if it
+/// holds fewer than two strides of the right foot.
 CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& model, double from_s);
 
 /// OpenSim's storage files: coordinates (.mot), or all states (.sto), rad and m.

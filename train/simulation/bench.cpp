@@ -54,7 +54,7 @@ class Runner {
     begin_episode();
   }
 
-  /// Until the wall clock says so, or for that many steps.
+  /// Runs for the given wall time or number of steps.
   void run(double seconds, long steps) {
     const double cpu = thread_cpu_s(), end = wall_s() + seconds;
     const long last = result_.steps + steps;

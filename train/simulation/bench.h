@@ -41,13 +41,12 @@ struct BenchResult {
   double us_per_evaluation() const { return 1e6 * cpu_s / evaluations; }
 };
 
-/// Runs the engines side by side, taking turns, so that a busy machine slows all alike. Threads
-/// share nothing.
+/// Runs the engines in turns, so that a busy machine slows all equally. Threads share nothing.
 std::vector<BenchResult> bench(const std::vector<std::string>& engines, const osim::Model& model,
                                const BenchOptions& options);
 
-/// What an accuracy costs and what it gives: rollouts of one second (or until a fall) under the
-/// bench's excitations against the planar engine at an accuracy of 1e-9.
+/// Cost and error of an accuracy: rollouts of one second (or until a fall) under the bench's
+/// excitations, compared with the planar engine at an accuracy of 1e-9.
 struct AccuracyRow {
   std::string engine;
   double accuracy = 0;

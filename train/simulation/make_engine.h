@@ -8,14 +8,14 @@
 
 namespace stride::simulation {
 
-/// The engines that there are; the first is the reference.
+/// The names of the engines; the first is the reference.
 inline constexpr std::array kEngineNames{"simbody", "planar"};
 
-/// The fast one, which agrees with the reference.
+/// The default engine, the fast one.
 inline constexpr const char* kDefaultEngine = "planar";
 
-/// One of kEngineNames. Throws Error if the engine is not known or cannot represent the model,
-/// with the reason and the advice.
+/// Makes an engine of kEngineNames. Throws Error if the name is unknown or the engine cannot
+/// represent the model, with the reason and the cure.
 std::unique_ptr<Engine> make_engine(std::string_view name, const osim::Model& model,
                                     const EngineOptions& options = {});
 

@@ -85,8 +85,8 @@ Simulation simulate(const osim::Model& model, const std::vector<Excitations>& ex
           "accuracy = {}: must be in (0, 0.1]; 1e-3 is usual", options.accuracy);
   EngineOptions engine_options;
   engine_options.accuracy = options.accuracy;
-  // A stiff step of 0.01 s takes 2000 evaluations at 1e-7 and three times as many at 1e-9; sliding
-  // along a chattering contact must not begin before.
+  // A stiff step of 0.01 s takes 2000 evaluations at 1e-7 and three times as many at 1e-9; the
+  // bound at which sliding along a chattering contact begins must be larger.
   if (options.accuracy < 1e-7) engine_options.max_evaluations *= 20;
   const auto engine = simulation::make_engine(options.engine, model,
                                               competition::under(options.rules, engine_options));

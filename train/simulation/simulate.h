@@ -17,8 +17,8 @@ struct SimulateOptions {
   std::string engine = simulation::kDefaultEngine;
   competition::Rules rules = competition::Rules::clean;
   double accuracy = 1e-3;
-  /// true: fibres start in equilibrium; false: at the file's length, else 0.1 m. Unset: as the
-  /// rules say.
+  /// true: fibres start in equilibrium; false: at the file's length, else 0.1 m. Unset: by the
+  /// rules.
   std::optional<bool> equilibrate;
   competition::Scene scene;
 };
@@ -29,9 +29,9 @@ struct ExcitationSequence {
   int clipped = 0;  // values that were outside of [0, 1]
 };
 
-/// Reads a CSV of one row a step and one column a muscle, by name, in any order; a column `time_s`
-/// is passed over. Values outside of [0, 1] are clipped, as the competition did. Throws Error for a
-/// missing, unknown or double muscle, and for a value that is none.
+/// Reads a CSV with a row for each step and a column for each muscle, by name, in any order; a
+/// column `time_s` is ignored. Values outside [0, 1] are clipped, as in the competition. Throws
+/// Error for a missing, unknown or duplicate muscle and for an invalid value.
 ExcitationSequence load_excitations(const std::filesystem::path& file);
 
 /// Reads a CSV with columns x_m, y_m, radius_m; sorted by x. Throws Error for anything else.
@@ -42,11 +42,11 @@ struct Simulation {
   /// (suffix _u), and those of the competition's 41 observations that are neither.
   Table table;
   std::optional<double> fell_at_s;
-  std::string failure;  // why it stopped early; empty: it did not
+  std::string failure;  // why it stopped early; empty if it did not
   long evaluations = 0;
 };
 
-/// Runs the excitations from the rules' initial state. A runner that falls is followed to the end.
+/// Runs the excitations from the rules' initial state, to the end even if the runner falls.
 Simulation simulate(const osim::Model& model, const std::vector<Excitations>& excitations,
                     const SimulateOptions& options);
 

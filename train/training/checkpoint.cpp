@@ -31,7 +31,7 @@ Random random_from(const std::string& text, const std::string& file) {
   Random random;
   std::istringstream in(text);
   in >> random;
-  // The last of its numbers says which of the others comes next; the library takes any.
+  // The last number of its state is the index of the next one; the library does not check it.
   std::istringstream last(text.substr(text.find_last_of(' ') + 1));
   std::size_t next = 0;
   require(!in.fail() && last >> next && next <= Random::state_size,
@@ -39,7 +39,7 @@ Random random_from(const std::string& text, const std::string& file) {
   return random;
 }
 
-/// Reads a vector that is empty or of a multiple of `unit` elements, at most `most` times as many.
+/// Reads a vector of n · unit elements, 0 ≤ n ≤ `most`.
 template <typename Scalar>
 Vector<Scalar> vector_from(const network::Tensors& tensors, const std::string& name,
                            Eigen::Index unit, Eigen::Index most = 1) {

@@ -6,14 +6,14 @@
 
 namespace stride::training {
 
-/// Stores a training in RUN/checkpoint.safetensors and RUN/replay/: the decisions since the last
-/// checkpoint as a new segment, then everything else, atomically; last, segments that nothing needs
-/// any more are removed. A kill at any moment leaves the old checkpoint or the new one whole.
+/// Stores a training in RUN/checkpoint.safetensors and RUN/replay/: first the decisions since the
+/// last checkpoint as a new segment, then everything else atomically; then removes segments that
+/// are no longer needed. A kill at any moment leaves a complete checkpoint, the old or the new one.
 template <typename Scalar>
 void save_checkpoint(const Training<Scalar>& training, const std::filesystem::path& run);
 
-/// Puts a training that was started with the same options where the checkpoint was. Throws Error
-/// naming the file and what is wrong with it; then the training is in no usable state.
+/// Restores a training with the same options from the checkpoint. Throws Error naming the file and
+/// its defect; the training is then unusable.
 template <typename Scalar>
 void load_checkpoint(Training<Scalar>& training, const std::filesystem::path& run);
 

@@ -33,7 +33,7 @@ CurveRow curve_row(const Progress& progress, double simulated_s,
 /// updates_per_s (since the row before).
 Table new_timing();
 
-/// Reads RUN/curve.csv or timing.csv for continuing: its first `rows` rows.
+/// Reads the first `rows` rows of RUN/curve.csv or timing.csv, to continue them.
 Table load_rows(const std::filesystem::path& file, const Table& empty, std::int64_t rows);
 
 }  // namespace stride::training

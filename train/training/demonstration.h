@@ -9,23 +9,22 @@
 
 namespace stride::training {
 
-/// What a run of somebody else's gives to training: the potential that shapes the reward, and the
-/// run itself, on which episodes may start (reference state initialisation, Peng et al. 2018).
+/// A demonstration: the potential that shapes the reward, and the run itself, from which episodes
+/// may start (reference state initialisation, Peng et al. 2018).
 struct Demonstration {
   std::optional<Potential> potential;
   std::optional<CalibratedTrajectory> reference;
 };
 
-/// Reads NAME.potential.json and, where `options` want episodes to start on the reference
-/// (reference_share > 0), NAME.calibrated.csv beside it or `reference` if that is given. Either may
-/// be empty; without both the demonstration is. Throws Error naming the file that is missing and
-/// the cure.
+/// Reads NAME.potential.json and, if reference_share > 0, NAME.calibrated.csv beside it or
+/// `reference` if given. Either may be empty; without both the demonstration is empty. Throws Error
+/// naming the missing file and the cure.
 Demonstration load_demonstration(const std::filesystem::path& potential,
                                  const std::filesystem::path& reference,
                                  const EnvironmentOptions& options);
 
-/// The copies in a run folder, as its configuration names them. save() names them in `options`;
-/// the overrides of the potential are applied in loading.
+/// The copies in a run folder, named by its configuration. save() sets these names in `options`;
+/// loading applies the overrides of the potential.
 void save(const Demonstration& demonstration, const std::filesystem::path& run,
           TrainOptions& options);
 Demonstration load_run_demonstration(const TrainOptions& options, const std::filesystem::path& run);

@@ -30,7 +30,7 @@ std::vector<std::string> names_or_empty(const Names<Choice>& names) {
 
 using Value = std::variant<bool*, int*, std::int64_t*, double*, std::string*, std::vector<int>*>;
 
-/// One line of a config file. A range restricts numbers, a list restricts words.
+/// One setting of a config file. A range restricts numbers, a list restricts words.
 struct Field {
   std::string key, meaning;
   Value value;
@@ -219,7 +219,7 @@ bool parse_number(const std::string& text, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-/// False where the words of the file are not of the field's kind.
+/// False if the value is not of the field's type.
 struct Assign {
   const std::vector<std::string>& in;
 
@@ -259,7 +259,7 @@ std::string_view kind(const Value& value) {
   return kinds[value.index()];
 }
 
-/// How many letters apart two keys are (Levenshtein), for the cure of a misspelling.
+/// Levenshtein distance of two keys, to suggest a correction.
 std::size_t letters_apart(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -307,7 +307,7 @@ void TrainOptions::check() const {
 
 namespace {
 
-/// Keys of version 0.1.0 that have another name now: runs of then are still read.
+/// Renamed keys of version 0.1.0, whose runs are still read.
 std::string present_key(const std::string& key) {
   if (key == "exploration.spread") return "exploration.sigma_ratio";
   if (key == "exploration.quiet_share") return "exploration.noise_free_fraction";

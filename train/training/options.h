@@ -16,17 +16,17 @@ namespace stride::training {
 struct RunOptions {
   std::string learner = "ddpg";  // or ppo
   std::int64_t seed = 1;
-  std::int64_t decisions = 1'000'000;  // of all environments together, then the run ends
-  int threads = 0;                     // 0: one a core; the curve does not depend on it
+  std::int64_t decisions = 1'000'000;  // of all environments together
+  int threads = 0;                     // 0: one for each core; the curve does not depend on it
   int environments = 16;
-  int action_repeat = 3;  // steps of 0.01 s that an action is held
-  int round = 4;          // decisions of each environment between two meetings
+  int action_repeat = 3;  // steps of 0.01 s for which an action is held
+  int round = 4;          // decisions of each environment in a round
   double updates_per_decision = 0.25;
   std::int64_t warm_up = 10'000;         // decisions before the first update
   std::int64_t evaluate_every = 25'000;  // decisions
-  int evaluation_episodes = 1;           // without noise; more only matter where resets differ
-  double checkpoint_s = 120;             // wall clock between two checkpoints
-  std::string precision = "float";       // of states and networks: float or double
+  int evaluation_episodes = 1;      // without noise; more than one only matter if resets differ
+  double checkpoint_s = 120;        // wall clock between two checkpoints
+  std::string precision = "float";  // of states and networks: float or double
 };
 
 struct EnvironmentOptions {
@@ -46,14 +46,14 @@ struct EnvironmentOptions {
 
 struct RewardOptions {
   double scale = 10;       // of the environment's reward, for the learner
-  double fall = 0;         // added by a fall while training, before the scale
-  double alive_per_s = 0;  // likewise by each simulated second
+  double fall = 0;         // added at a fall in training, before scaling
+  double alive_per_s = 0;  // likewise for each simulated second
 };
 
 struct ShapingOptions {
   std::string potential;   // file, as it was copied into the run folder; empty: no shaping
-  std::string source;      // where that file came from: the source video is looked for there
-  double scale = 0.008;    // on the file's weight; PF3 at a weight of 1 drowns the reward
+  std::string source;      // where that file came from; the source video is searched there
+  double scale = 0.008;    // factor on the file's weight; PF3 with weight 1 outweighs the reward
   double epsilon_m = 0.1;  // instead of the file's; -1: the file's
   std::string function;    // pf1, pf2, pf3; empty: the file's
   std::string index;       // time, nearest; empty: the file's
@@ -97,21 +97,21 @@ struct TrainOptions {
   ReplayOptions replay = {};
   PpoOptions ppo = {};
 
-  /// Throws Error naming the first option that is out of its range: `agent.gamma = 1.2: must be in
-  /// [0, 1)`.
+  /// Throws Error naming the first option that is out of range: `agent.gamma = 1.2: must be in [0,
+  /// 1)`.
   void check() const;
 };
 
-/// Changes the options that a TOML file names. Throws Error naming file, key and cure where a key
-/// is not known or its value is of another kind.
+/// Sets the options that a TOML file names. Throws Error naming file, key and cure for an unknown
+/// key or a value of another kind.
 void read_toml(const std::filesystem::path& file, TrainOptions& options);
-/// The same for settings of a file that says more than that; errors name `source`.
+/// The same for settings from a larger file; errors name `source`.
 void set_options(const std::vector<TomlSetting>& settings, const std::string& source,
                  TrainOptions& options);
-/// The same for one `key=value` of a command line.
+/// The same for a `key=value` of the command line.
 void set_option(std::string_view assignment, TrainOptions& options);
 
-/// All options as TOML, each with its meaning; reads back as the same options.
+/// All options as TOML with comments; reads back as the same options.
 std::string to_toml(const TrainOptions& options, std::string_view heading);
 
 /// train/presets/NAME.toml. Throws Error with the list of presets.

@@ -5,9 +5,9 @@
 
 namespace stride::training {
 
-/// The runner of these options. Slots of training may start on the reference motion; the one for
-/// evaluation starts as the rules say. The potential says what a foot is. Throws Error naming the
-/// option, or why the engine refuses the model.
+/// Makes runners with these options. Training slots may start from the reference motion; the one
+/// for evaluation starts by the rules. The potential defines what a foot is. Throws Error naming
+/// the option, or why the engine refuses the model.
 EnvironmentFactory make_runners(const EnvironmentOptions& options,
                                 const Demonstration& demonstration);
 

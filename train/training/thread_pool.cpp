@@ -27,7 +27,7 @@ void ThreadPool::take_tasks(std::unique_lock<std::mutex>& lock) {
     std::exception_ptr failure;
     try {
       (*work_)(task);
-    } catch (...) {  // carried over to the caller of run()
+    } catch (...) {  // rethrown in the caller of run()
       failure = std::current_exception();
     }
     lock.lock();

@@ -8,7 +8,7 @@
 
 namespace stride::training {
 
-/// Threads that share a list of tasks. The caller is one of them, so a crew of one has no thread.
+/// A thread pool. The caller is one of its threads, so a pool of one starts none.
 class ThreadPool {
  public:
   /// `threads` ≤ 0: one for each core.
@@ -17,8 +17,8 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Calls work(0) … work(tasks − 1), each once, starting in this order, and returns when all are
-  /// done. The first exception that a task threw is thrown again.
+  /// Calls work(0) … work(tasks − 1) once each, started in this order, and returns when all are
+  /// done. Rethrows the first exception of a task.
   void run(int tasks, const std::function<void(int)>& work);
 
   int size() const { return static_cast<int>(threads_.size()) + 1; }

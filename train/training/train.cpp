@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Beyond it a value is taken for a divergence: rewards of metres do not add up to it.
+/// Values beyond it count as divergence; rewards in metres cannot add up to it.
 constexpr double kDivergedValue = 1e6;
 
 double seconds_since(Clock::time_point start) {
@@ -38,7 +38,7 @@ std::int64_t updates_due(const TrainOptions& options, const Progress& progress) 
          progress.updates;
 }
 
-/// The learner's share of a round: samples what was known when the round began.
+/// The learner's part of a round: samples from the rounds before it.
 template <typename Scalar>
 std::string learn(const TrainOptions& options, bool shaped, std::int64_t updates,
                   Training<Scalar>& training, ddpg::Batch<Scalar>& batch) {
@@ -73,7 +73,7 @@ std::string learn(const TrainOptions& options, bool shaped, std::int64_t updates
   return {};
 }
 
-/// One environment's share of a round.
+/// One environment's part of a round.
 template <typename Scalar>
 void explore(const TrainOptions& options, const network::Policy<Scalar>& policy, int slot,
              Training<Scalar>& training) {
@@ -86,7 +86,7 @@ void explore(const TrainOptions& options, const network::Policy<Scalar>& policy,
   }
 }
 
-/// After a round: its records join the memory, in the order of the slots.
+/// After a round: adds its records to the memory, in the order of the slots.
 template <typename Scalar>
 void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& training) {
   Progress& progress = training.progress;
@@ -111,7 +111,7 @@ void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& t
     }
 }
 
-/// Where the agent is evaluated: without noise, as the rules start an episode.
+/// Evaluates the agent without noise, in episodes that start by the rules.
 template <typename Scalar>
 class Evaluator {
  public:
@@ -190,8 +190,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     }
     if (stopped || progress.decisions >= options.run.decisions) break;
 
-    // A round. Everybody acts by the same copy of the actor; meanwhile the learner learns from what
-    // was known when the round began: so it does not matter who is faster.
+    // A round. All environments act with the same copy of the actor; meanwhile the learner samples
+    // from the rounds before. The result does not depend on timing.
     const network::Policy<Scalar> policy = policy_of(training, options);
     const std::int64_t updates = updates_due(options, progress);
     pool.run(1 + options.run.environments, [&](int task) {
@@ -228,7 +228,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
   keep_last([&] { save_checkpoint(training, run); });
   summary.finished = progress.decisions >= options.run.decisions;
   // After the checkpoint, so that a run that is continued with more decisions has no row that an
-  // uninterrupted one would not have.
+  // uninterrupted run would not have.
   if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
   if (progress.rows > 0) keep_last([&] { journal.save_rows(); });
   summary.progress = progress;

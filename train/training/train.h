@@ -11,18 +11,18 @@
 
 namespace stride::training {
 
-/// How a call of train() went.
+/// The result of train().
 struct TrainSummary {
   Progress progress;
   bool finished = false;   // the decisions of the configuration are done
-  std::string divergence;  // why learning was stopped; empty: it was not
-  std::string unsaved;     // why the last checkpoint or row was not written; empty: it was
+  std::string divergence;  // why learning diverged; empty if it did not
+  std::string unsaved;     // why the last checkpoint or row was not written; empty if it was
   double distance_m = 0;   // of the last evaluation
   std::string brief_report() const;
 };
 
-/// Writes what a run needs to begin: config.toml, and what there is of a demonstration. Throws
-/// Error where `run` holds a run already.
+/// Creates a run folder with config.toml and the demonstration. Throws Error if `run` already holds
+/// a run.
 void make_run_folder(const TrainOptions& options, const Demonstration& demonstration,
                      const std::filesystem::path& run);
 
@@ -31,8 +31,8 @@ void write_run_options(const TrainOptions& options, const std::filesystem::path&
 
 TrainOptions load_run_options(const std::filesystem::path& run);
 
-/// Trains the run in that folder: from its beginning, or from its checkpoint if it has one, until
-/// its decisions are done or `stop` is set; then a checkpoint is there to continue from.
+/// Trains the run in that folder from its checkpoint, or from the beginning if it has none, until
+/// its decisions are done or `stop` is set. Writes a checkpoint at the end.
 ///
 /// Writes curve.csv (`# stride curve 1`: a row each evaluation; it depends on the configuration and
 /// its seed alone, not on threads, speed or interruptions), timing.csv (`# stride timing 1`: wall

@@ -12,8 +12,8 @@
 
 namespace stride::training {
 
-/// Makes environment number `slot` of a run; slot < 0: one for evaluation, whose episodes start as
-/// the rules say.
+/// Makes environment number `slot` of a run; slot < 0: the one for evaluation, whose episodes start
+/// by the rules.
 using EnvironmentFactory = std::function<std::unique_ptr<environment::Environment>(int slot)>;
 
 /// Counters of a run, and sums since the last row of the curve.
@@ -30,7 +30,7 @@ struct Progress {
   } sums;
 };
 
-/// Everything that changes while a run goes on, and what a checkpoint keeps of it.
+/// The mutable state of a run, which a checkpoint stores.
 template <typename Scalar>
 struct Training {
   std::vector<std::string> feature_names, action_names;
@@ -43,12 +43,12 @@ struct Training {
   Progress progress;
 };
 
-/// The beginning of a run. `potential` may be null, and must outlive the training.
+/// Starts a run. `potential` may be null and must outlive the training.
 template <typename Scalar>
 Training<Scalar> start_training(const TrainOptions& options, const Potential* potential,
                                 const EnvironmentFactory& make_environment);
 
-/// A copy of what the agent would do now.
+/// A copy of the current policy.
 template <typename Scalar>
 network::Policy<Scalar> policy_of(const Training<Scalar>& training, const TrainOptions& options);
 

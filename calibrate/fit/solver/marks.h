@@ -8,7 +8,7 @@
 
 namespace stride::fit {
 
-/// A trajectory as the fit sees it: turned so that the runner faces right and y is up.
+/// The labelled points of a trajectory, mirrored so that the runner faces right, with y up.
 struct Mark {
   int frame = 0;   // index into Trajectory::frames
   double u_s = 0;  // from the middle of the clip
@@ -22,7 +22,7 @@ struct Marks {
   std::vector<double> u_s;   // of every frame
   double middle_s = 0, duration_s = 0;
   bool to_left = false;
-  int count[kBodyPartCount] = {};  // how often a part was seen
+  int count[kBodyPartCount] = {};  // number of points of a part
 
   bool sees(BodyPart part) const { return count[index(part)] * 4 >= static_cast<int>(u_s.size()); }
 };

@@ -35,7 +35,7 @@ struct PointResidual {
     return true;
   }
 
-  /// The same where phase and angles are given.
+  /// The same for given phase and angles.
   template <typename T>
   void at_pose(const T* camera, const T* body, const T* sides, const T& tilt,
                const LegAngles<T>& leg, const T& phase, const T* pelvis_px, T* r) const {
@@ -63,7 +63,7 @@ struct PelvisResidual {
   }
 };
 
-/// What sets the scale: the length of the runner's legs is known as well as ln L ± sd.
+/// Prior on the length of the runner's legs, which sets the scale: ln L ± sd.
 ///   r = (ln (thigh + shank) − ln L) / sd
 struct LegLengthResidual {
   using DependsOn = Blocks<1, Others<>, &Runner::body>;
@@ -78,7 +78,7 @@ struct LegLengthResidual {
   }
 };
 
-/// Proportions that the marks may not show: r = (ln (b_i / b_j) − ln ratio) / sd.
+/// Prior on a proportion: r = (ln (b_i / b_j) − ln ratio) / sd.
 struct ProportionResidual {
   using DependsOn = Blocks<1, Others<>, &Runner::body>;
 
@@ -93,7 +93,8 @@ struct ProportionResidual {
   }
 };
 
-/// The marked pelvis is the midpoint of the hips: r = (hip offset) / sd. Two residuals.
+/// Prior that the labelled pelvis is the midpoint of the hips: r = (hip offset) / sd. Two
+/// residuals.
 struct HipsResidual {
   using DependsOn = Blocks<2, Others<>, &Runner::body>;
 

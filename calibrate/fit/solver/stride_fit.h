@@ -12,12 +12,12 @@
 
 namespace stride::fit {
 
-/// What is known of a quantity before the clip is seen: a normal distribution.
+/// A normal prior on a quantity.
 struct Prior {
   double mean = 0, sd = 0;
 };
 
-/// How the fit is made. Pixels know no metres: the length of the runner's legs gives them.
+/// Options of the fit. The length of the runner's legs sets the scale.
 struct FitOptions {
   /// Hip to ankle at a straight knee, relative sd. Default: the mean of Drillis and Contini 1966
   /// (0.491 of the height) and of two measured runners (0.476, Rajagopal 2016; Hamner 2010) times
@@ -26,8 +26,8 @@ struct FitOptions {
   std::optional<double> metres_per_pixel;  // in the middle of the clip: known exactly
   Prior roll_rad{0, 0.035};                // of the ground in the image as it is, clockwise < 0
   int harmonics = 0;                       // 0: chosen by the data, from 2 to kMaxHarmonics
-  /// How well a person marks a joint, of a leg's length: no mark is believed to be better, however
-  /// smooth the track through it is.
+  /// Standard deviation of a person's click in leg lengths: a lower bound for every point, however
+  /// smooth the track is.
   double mark_sd = 0.015;
   bool numeric_derivatives = false;  // instead of automatic ones: for the benchmark
 };
@@ -43,10 +43,10 @@ struct VerticalOscillation {
   double peak_to_peak_m() const;
 };
 
-/// How one mark agrees with the fit.
+/// The residual of one labelled point.
 struct MarkResidual {
   Eigen::Vector2d r_px = Eigen::Vector2d::Zero();  // mark − fit, in the runner's turned image
-  bool outlier = false;                            // not believed
+  bool outlier = false;                            // excluded by Tukey's loss
 };
 
 /// A runner fitted to a clip. Failure is a value: `ok` false with `failure`.
@@ -56,19 +56,19 @@ struct StrideFit {
   Runner runner;
   int harmonics = 0;
   bool toes_seen = false, head_seen = false;
-  bool backward = false;  // knees bend forward: the clip is seen the other way round
+  bool backward = false;                   // knees bend forward: the clip is mirrored
   std::vector<Eigen::Vector2d> pelvis_px;  // of every frame
   VerticalOscillation vertical_oscillation;
 
   double explained = 0;    // of the first guess: see PeriodGuess
   double sigma_px = 0;     // robust standard deviation of a mark of confidence 1
-  double correlation = 1;  // frames that say as much as one independent one
-  double rms_px = 0;       // of the marks that are believed
+  double correlation = 1;  // number of frames equivalent to one independent frame
+  double rms_px = 0;       // of the inliers
   double outlier_fraction = 0;
   std::vector<MarkResidual> marks;  // of Marks::points
   int iterations = 0;               // of all solves
 
-  /// Of `flattened(runner)`; zero where a parameter was not free.
+  /// Covariance of `flattened(runner)`; zero for fixed parameters.
   Eigen::MatrixXd covariance;
 
   double period_sd_s() const;
@@ -76,7 +76,7 @@ struct StrideFit {
   double roll_sd_rad() const;
 };
 
-/// Standard deviations of what is computed from a fit, by the covariance of its runner.
+/// Standard deviations of functions of the fit, from the covariance of its parameters.
 Eigen::VectorXd propagated_sd(const StrideFit& fit,
                               const std::function<Eigen::VectorXd(const StrideFit&)>& values);
 
@@ -84,11 +84,11 @@ Eigen::VectorXd propagated_sd(const StrideFit& fit,
 Eigen::VectorXd flattened(const Runner& runner);
 Runner unflattened(const Eigen::VectorXd& values);
 
-/// Where a part of the runner is from its marked pelvis, px.
+/// Position of a part relative to the labelled pelvis, px.
 Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directions, BodyPart part,
                                 double u_s);
 
-/// Where a part of the runner is in the image of frame `frame`, px as Mark::z_px.
+/// Position of a part in the image of frame `frame`, px as Mark::z_px.
 Eigen::Vector2d predicted_px(const StrideFit& fit, const Directions& directions, BodyPart part,
                              int frame, double u_s);
 

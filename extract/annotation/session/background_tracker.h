@@ -11,10 +11,10 @@
 
 namespace stride::annotation {
 
-/// Tracks in a thread of its own, always from the newest clicks: work on older ones is given up.
+/// Tracks the newest clicks in its own thread; abandons work on older ones.
 class BackgroundTracker {
  public:
-  /// Makes a prediction, or nothing soon after `given_up` has become true.
+  /// Returns a prediction, or nothing soon after `given_up` has become true.
   using Predict =
       std::function<std::optional<Prediction>(const Keypoints&, const std::atomic<bool>& given_up)>;
 
@@ -23,11 +23,11 @@ class BackgroundTracker {
   BackgroundTracker(const BackgroundTracker&) = delete;
   BackgroundTracker& operator=(const BackgroundTracker&) = delete;
 
-  /// Nothing happens where the clicks of this revision are in work or done already.
+  /// Does nothing if the clicks of this revision are being tracked or done.
   void submit(const Keypoints& keypoints, int revision);
-  /// A prediction that was finished since the last call.
+  /// The prediction finished since the last call, if any.
   std::optional<Prediction> poll();
-  /// Until the clicks submitted last are done.
+  /// Waits until the clicks submitted last are tracked.
   Prediction wait();
 
  private:

@@ -14,7 +14,7 @@ namespace stride::annotation {
 namespace {
 
 constexpr int kLoupe = 208;        // side, canvas px
-constexpr double kLoupeScale = 8;  // of what the window shows, and at most of an image pixel
+constexpr double kLoupeScale = 8;  // relative to the window, at most to an image pixel
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void AnnotationCanvas::draw_image() {
     return;
   }
   s_.shown_area().copyTo(area);
-  // Shapes are drawn on the whole canvas; what sticks out of the area is covered afterwards.
+  // Shapes are drawn on the whole canvas; the rest of the canvas is painted over them afterwards.
   draw_floor();
   draw_ghosts();
   draw_clicks();
@@ -71,7 +71,7 @@ void AnnotationCanvas::draw_ghosts() {
     return std::nullopt;
   }();
 
-  // The same phase of the stride before, moved onto this frame's pelvis.
+  // The same phase of the previous stride, moved to this frame's pelvis.
   const auto before = static_cast<int>(std::lround(s_.frame_ - s_.stride_frames()));
   if (const TrajectoryFrame* ghost = s_.predicted(before);
       ghost && pelvis && (*ghost)[BodyPart::pelvis].present()) {

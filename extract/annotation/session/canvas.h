@@ -7,8 +7,8 @@
 
 namespace stride::annotation {
 
-/// Draws the state of a session: the image with points, ghosts and a loupe; below it the timeline;
-/// below that the line that says what a click will do.
+/// Draws a session: the image with points, ghosts and a loupe, the timeline, and a status line that
+/// says what a click will do.
 class AnnotationCanvas {
  public:
   explicit AnnotationCanvas(AnnotationSession& session) : s_(session) {}
@@ -17,7 +17,7 @@ class AnnotationCanvas {
 
   /// The part of a canvas that shows the image.
   static cv::Rect image_area(cv::Size canvas);
-  /// The frame under a canvas point in the timeline; nothing elsewhere.
+  /// The frame at a canvas point in the timeline; nothing elsewhere.
   static std::optional<int> frame_at(const Eigen::Vector2d& p, cv::Size canvas, int frame_count);
 
  private:

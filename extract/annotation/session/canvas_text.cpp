@@ -1,4 +1,4 @@
-// The words of the window: what is shown, what a click will do, help.
+// Text of the window: what is shown, what a click will do, help.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The timeline of the window: ruler, a strip a part, the ankles.
+// The timeline of the window: ruler, a strip for each part, the ankles.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -61,7 +61,7 @@ void AnnotationCanvas::draw_timeline() {
                 c);
     }
   }
-  // A strip a part: what the tracking is worth in each frame.
+  // A strip for each part: clicks and the confidence of tracking.
   int y = top + kRuler + 2;
   for (const BodyPart part : asking_order(s_.near_leg(), false, false)) {
     draw_text(canvas_,
@@ -97,7 +97,7 @@ void AnnotationCanvas::draw_timeline() {
 void AnnotationCanvas::draw_ankles(const cv::Rect& lane) {
   cv::rectangle(canvas_, lane, colour::kBackground, cv::FILLED);
   draw_text(canvas_, "ankles x", {8, lane.y + 14}, colour::kDim, 0.34);
-  // Against the pelvis, so that the strides of a runner who crosses the picture fill the lane too.
+  // Relative to the pelvis, so that a runner who crosses the picture fills the lane too.
   struct Sample {
     int frame;
     double right, left;

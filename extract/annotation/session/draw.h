@@ -14,7 +14,7 @@ inline const cv::Scalar kGood(120, 200, 120), kNear(60, 150, 255), kFar(245, 190
 inline const cv::Scalar kMiddle(240, 240, 240), kHead(140, 230, 140), kAccent(90, 230, 250);
 }  // namespace colour
 
-/// Shapes with sub-pixel places; `p` in canvas pixels.
+/// Shapes at sub-pixel positions; `p` in canvas pixels.
 void draw_line(cv::Mat& canvas, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                const cv::Scalar& colour, int thickness = 1);
 void draw_dashes(cv::Mat& canvas, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
@@ -23,7 +23,7 @@ void draw_ring(cv::Mat& canvas, const Eigen::Vector2d& p, double radius, const c
                int thickness = 1);
 void draw_dot(cv::Mat& canvas, const Eigen::Vector2d& p, double radius, const cv::Scalar& colour);
 
-/// Text with its baseline at `p`. ASCII only, as OpenCV's own letters; others are replaced.
+/// Text with its baseline at `p`. OpenCV's fonts are ASCII; other characters are replaced.
 void draw_text(cv::Mat& canvas, const std::string& text, const cv::Point& p,
                const cv::Scalar& colour, double size = 0.45);
 int text_width(const std::string& text, double size = 0.45);
@@ -31,7 +31,7 @@ int text_width(const std::string& text, double size = 0.45);
 /// Red at 0, yellow at 0.5, green at 1.
 cv::Scalar confidence_colour(double confidence);
 
-/// Darkens a piece of the canvas, for text over it.
+/// Darkens a rectangle of the canvas, for text on it.
 void shade(cv::Mat& canvas, const cv::Rect& area, double remaining);
 
 }  // namespace stride::annotation

@@ -5,7 +5,7 @@
 
 namespace stride::annotation {
 
-/// Everything that a key does in the window.
+/// The actions of keys in the window.
 enum class Command {
   none,
   previous_frame,
@@ -53,11 +53,11 @@ struct KeyHelp {
   std::string does;
 };
 
-/// What a key of cv::waitKeyEx does. Letters come in lower case, and no control or shift at all
-/// with Qt, so letters and digits are all that is used.
+/// The action of a key from cv::waitKeyEx. Qt reports letters in lower case without shift or
+/// control, so only letters and digits are used.
 Command command_of(int key);
 
-/// For the help overlay and the README, in reading order.
+/// For the help overlay and the README, in order.
 const std::vector<KeyHelp>& key_help();
 
 namespace key {

@@ -19,7 +19,7 @@ bool can_be_tracked(const Keypoints& keypoints) {
   return frames >= 2;
 }
 
-/// Clicked frames whose legs move as if they were named the wrong way round.
+/// Clicked frames whose legs move as if they were swapped.
 std::vector<int> suspected_swaps(const Trajectory& marks) {
   std::vector<int> suspects;
   for (const tracking::LegSwap& swap : tracking::repair_legs(marks).swaps)
@@ -29,7 +29,7 @@ std::vector<int> suspected_swaps(const Trajectory& marks) {
   return suspects;
 }
 
-/// From the period of the tracker's prior, where the crossings of the ankles say that there is one.
+/// From the period of the tracker's prior, if the ankles cross at all.
 double stride_frames(const tracking::Tracked& tracked, double rate_hz) {
   const double crossing = stride_from_crossings(tracked.trajectory);
   const double periodic = tracked.summary.prior.legs.period_s * rate_hz;

@@ -8,8 +8,8 @@
 
 namespace stride::annotation {
 
-/// Tracks the clicks through the frames between them, for the ghosts and strips of the window.
-/// Nothing if `given_up` became true meanwhile.
+/// Tracks the clicks through the frames between them, for the window. Nothing if `given_up` became
+/// true.
 std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore& frames,
                                   const std::atomic<bool>& given_up);
 

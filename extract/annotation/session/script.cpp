@@ -94,7 +94,7 @@ class Player {
   }
 
   void press_and_release(const Json& from, const Json& to, Button button) {
-    // The view may follow the press (a click can go on to another frame), the mouse does not.
+    // The view may change at the press (a click can lead to another frame); the mouse stays.
     const Eigen::Vector2d end = canvas(to);
     send_mouse(Kind::press, from, button);
     AnnotationEvent event;

@@ -7,7 +7,7 @@
 
 namespace stride::annotation {
 
-/// Drives a session by a file with one JSON object a line, places in pixels of the image:
+/// Drives a session by a file with one JSON object a line, positions in pixels of the image:
 ///
 ///     {"key": "r"}                        also Enter, Escape, Backspace, Space, Tab, Home, End
 ///     {"click": [312.5, 90], "button": "right"}
@@ -18,8 +18,8 @@ namespace stride::annotation {
 ///     {"wait": "tracking"}                until the clicks so far are tracked
 ///     {"picture": "window.png"}           what the window shows, relative to the script's folder
 ///
-/// Stops where the session is done. Throws Error naming file and line, also where the session
-/// refuses what it was told.
+/// Stops when the session is done. Throws Error with file and line, also if the session refuses an
+/// event.
 void run_script(AnnotationSession& session, const std::filesystem::path& script,
                 const std::function<void()>& wait_for_tracking);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kGripRadius = 9;       // canvas px around a point
 constexpr double kDragThreshold = 3;    // canvas px before a press becomes a drag
 constexpr int kPhasesPerStride = 8;     // four a half step, as in the paper
-constexpr double kUsualStride_s = 0.7;  // of a run, until this one's is known
+constexpr double kUsualStride_s = 0.7;  // of a run, until this runner's is known
 
 }  // namespace
 
@@ -126,7 +126,7 @@ void AnnotationSession::handle(const AnnotationEvent& event) {
 }
 
 void AnnotationSession::set_prediction(Prediction prediction) {
-  // What the user made of the guess does not hold for the stride itself.
+  // The user's factor applied to the guess, not to the measured stride.
   if (prediction_.stride_frames == 0 && prediction.stride_frames > 0) step_factor_ = 1;
   prediction_ = std::move(prediction);
   passed_by_.clear();
@@ -198,7 +198,7 @@ void AnnotationSession::release(const AnnotationEvent& event) {
   }
   const ClickedFrame* here = clicked(frame_);
   if (!here || !here->placed(grip.part)) return;
-  // The point keeps its distance from the mouse, so that gripping it does not move it.
+  // The point keeps its offset from the mouse, so that grabbing does not move it.
   const Eigen::Vector2d by_px = (event.p_canvas - grip.from_canvas) / view_.scale;
   place(grip.part, view_.inside((*here)[grip.part]->p_px + by_px), (*here)[grip.part]->state);
 }
@@ -242,7 +242,7 @@ std::optional<Eigen::Vector2d> AnnotationSession::pelvis_px(int frame) const {
   if (here && here->placed(BodyPart::pelvis)) return (*here)[BodyPart::pelvis]->p_px;
   const TrajectoryFrame* tracked = predicted(frame);
   if (tracked && (*tracked)[BodyPart::pelvis].present()) return (*tracked)[BodyPart::pelvis].p_px;
-  // After the last click the runner goes on as he came.
+  // After the last click the runner continues at the same speed.
   const auto& frames = keypoints().frames;
   const auto last = frames.rbegin(), before = frames.size() < 2 ? frames.rend() : std::next(last);
   if (before == frames.rend() || frame < last->first || !last->second.placed(BodyPart::pelvis) ||
@@ -256,7 +256,7 @@ std::optional<Eigen::Vector2d> AnnotationSession::pelvis_px(int frame) const {
 void AnnotationSession::go_to(int frame) {
   frame = std::clamp(frame, 0, std::max(frame_count() - 1, 0));
   if (frame == frame_) return;
-  // A view that shows a piece of the image goes with the runner.
+  // A zoomed view follows the runner.
   const auto before = pelvis_px(frame_), after = pelvis_px(frame);
   if (before && after) view_.pan(view_.scale * (*before - *after));
   frame_ = frame;

@@ -13,7 +13,7 @@
 
 namespace stride::annotation {
 
-/// What a window tells: mouse positions in pixels of the canvas, keys as cv::waitKeyEx gives them.
+/// An event of a window: mouse positions in pixels of the canvas, keys as from cv::waitKeyEx.
 struct AnnotationEvent {
   enum class Kind { press, release, move, wheel, key };
   enum class Button { left, right, middle };
@@ -25,27 +25,27 @@ struct AnnotationEvent {
   int key = 0;
 };
 
-/// What the tracker makes of the clicks.
+/// The result of tracking the clicks.
 struct Prediction {
   Trajectory trajectory;
-  double stride_frames = 0;   // 0: not known yet
+  double stride_frames = 0;   // 0: unknown
   std::vector<int> suspects;  // frames where left and right seem to be swapped
   int revision = -1;          // AnnotationDocument::revision() of the clicks it was made from
-  std::string problem;        // why there is none, for the user
+  std::string problem;        // if there is no prediction: why, for the user
 };
 
 struct AnnotationOptions {
   cv::Size canvas_px{1280, 860};
-  bool hips = false, head = false;  // ask for them too
+  bool hips = false, head = false;  // also ask for them
 };
 
-/// All that `stride annotate` does, without a window: events in, a picture and keypoints out. It
-/// asks for one part after the other, goes on to the next phase frame when a frame is complete, and
-/// has every edit on disk when handle() returns. Problems are told on the canvas; handle() throws
-/// nothing that a user can cause.
+/// `stride annotate` without a window: events in, a picture and keypoints out. It asks for one part
+/// after the other, moves on to the next phase frame when a frame is complete, and has every edit
+/// on disk when handle() returns. Problems appear on the canvas; handle() throws nothing that a
+/// user can cause.
 class AnnotationSession {
  public:
-  /// What a click will do.
+  /// What a click does.
   enum class Mode { ask_direction, ask_near_leg, click, floor_from, floor_to, type };
 
   AnnotationSession(AnnotationJournal& journal, video::FrameStore& frames,
@@ -53,20 +53,20 @@ class AnnotationSession {
 
   void handle(const AnnotationEvent& event);
   void set_prediction(Prediction prediction);
-  /// For the moments without events: folds the journal. Returns whether anything changed.
+  /// Call when there are no events: folds the journal. Returns whether anything changed.
   bool rest();
 
   cv::Mat picture();
 
   bool done() const { return done_; }
   int frame() const { return frame_; }
-  int frame_count() const;  // as far as known
+  int frame_count() const;  // known so far
   Mode mode() const { return mode_; }
   std::optional<BodyPart> asked() const { return asked_; }
   const Keypoints& keypoints() const { return journal_.document().keypoints(); }
   int revision() const { return journal_.document().revision(); }
   const View& view() const { return view_; }
-  const std::string& message() const { return message_; }  // what was done, or what went wrong
+  const std::string& message() const { return message_; }  // result or problem of the last event
   bool has_problem() const { return wrong_; }
   double stride_frames() const;
   void go_to(int frame);
@@ -82,7 +82,7 @@ class AnnotationSession {
     BodyPart part = BodyPart::pelvis;
     Eigen::Vector2d from_canvas = Eigen::Vector2d::Zero();
     bool moved = false;
-    ClickState state = ClickState::seen;  // that a click here would place
+    ClickState state = ClickState::seen;  // of a click here
   };
 
   void press(const AnnotationEvent& event);
@@ -116,13 +116,13 @@ class AnnotationSession {
   void tell(std::string message, bool wrong = false);
 
   const cv::Mat& shown_image();  // of the frame; empty while it is still being decoded
-  const cv::Mat& shown_area();   // the same as the view shows it, nothing drawn on it
+  const cv::Mat& shown_area();   // the part that the view shows, without drawings
   const ClickedFrame* clicked(int frame) const;
   const TrajectoryFrame* predicted(int frame) const;
   std::optional<BodyPart> click_at(const Eigen::Vector2d& canvas) const;
   std::vector<BodyPart> order() const;
   double phase_step() const;
-  std::optional<Eigen::Vector2d> pelvis_px(int frame) const;  // as far as it can be told
+  std::optional<Eigen::Vector2d> pelvis_px(int frame) const;  // clicked or predicted
   std::string near_leg() const;
 
   AnnotationJournal& journal_;
@@ -134,11 +134,11 @@ class AnnotationSession {
   Typing typing_;
   Grip grip_;
   int frame_ = 0;
-  std::optional<BodyPart> asked_, last_;  // asked for now; placed or chosen last
+  std::optional<BodyPart> asked_, last_;  // current; placed or chosen last
   std::optional<int> range_from_;
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Constant(-1);  // on the canvas
   Eigen::Vector2d floor_from_ = Eigen::Vector2d::Zero();
-  double step_factor_ = 1;      // the user's, on the spacing of phase frames
+  double step_factor_ = 1;      // the user's factor for the spacing of phase frames
   std::vector<int> passed_by_;  // worst frames seen since the last prediction
   int shown_ = -1;              // the frame of shown_image_
   cv::Mat shown_image_, shown_area_;

@@ -1,4 +1,4 @@
-// What AnnotationSession does to the keypoints.
+// AnnotationSession: edits of the keypoints.
 #include <algorithm>
 
 #include "extract/annotation/asking.h"

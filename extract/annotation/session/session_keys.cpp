@@ -1,4 +1,4 @@
-// What the keys of AnnotationSession do.
+// AnnotationSession: actions of the keys.
 #include <algorithm>
 #include <charconv>
 
@@ -11,7 +11,7 @@ namespace stride::annotation {
 namespace {
 
 constexpr double kNudge = 0.25;  // px
-constexpr double kCloseUp = 8;   // canvas px an image px
+constexpr double kCloseUp = 8;   // canvas px per image px
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void AnnotationSession::answer(int key) {
   if (mode_ == Mode::ask_direction) {
     if (!right && !left) return;
     settings.direction = right ? "right" : "left";
-    // Whoever runs to the right shows the camera the right side.
+    // A runner to the right shows the right side to the camera.
     mode_ = Mode::ask_near_leg;
     return edit_settings(fmt::format("runs to the {}", settings.direction), settings);
   }
@@ -80,7 +80,7 @@ void AnnotationSession::finish_typing() {
 }
 
 void AnnotationSession::choose_part(int digit) {
-  // 1 … 7 as asked for without hips; 8, 9, 0 the hips and the head.
+  // 1 … 7: the order without hips; 8, 9, 0: hips and head.
   constexpr std::array<std::size_t, 10> kPlace{9, 0, 1, 2, 3, 5, 6, 7, 4, 8};
   const auto all = asking_order(near_leg(), true, true);
   last_ = asked_ = all[kPlace[static_cast<std::size_t>(digit)]];

@@ -5,8 +5,8 @@
 
 #include "extract/import/parsing/detections.h"
 
-/// One reader a format: content of a file in, everybody that it holds out. `file` is for the error
-/// messages. All throw Error with file, line and what was expected; none guesses.
+/// One reader for each format, from the content of a file to all detected people. `file` is for
+/// error messages. All throw Error with file, line and what was expected.
 namespace stride::imports {
 
 /// One frame of OpenPose (15, 18 or 25 points).

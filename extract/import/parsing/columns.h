@@ -10,14 +10,14 @@
 
 namespace stride::imports {
 
-/// Where a table has its points.
+/// The columns of a table's points.
 struct PointColumns {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   std::vector<std::string> labels;
   std::vector<std::array<std::size_t, 3>> columns;  // of x, y and confidence, which may be kNone
 
-  /// The columns of `label`, new ones (kNone) if it had none.
+  /// The columns of `label`; adds it (kNone) if it is new.
   std::array<std::size_t, 3>& of(const std::string& label);
 
   /// The points of one line. Without a confidence column a point has confidence 1.

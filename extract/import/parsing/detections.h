@@ -11,16 +11,16 @@
 namespace stride::imports {
 
 struct ImportOptions {
-  std::string format;         // one of import_formats(); empty: told from the content
-  int person = 0;             // 1 = largest sustained, 2 = the next …; 0: the largest sustained
-  double min_confidence = 0;  // points below it count as absent
-  /// Labels of the file for our parts ("knee_r" → "pt3"), before the usual spellings are tried.
+  std::string format;         // one of import_formats(); empty: by the content
+  int person = 0;             // 1: the largest for the longest time, 2: the next, …; 0: as 1
+  double min_confidence = 0;  // points below it are absent
+  /// Labels of the file for our parts ("knee_r" → "pt3"); tried before the usual spellings.
   std::map<std::string, std::string> labels;
   int y_up_height_px = 0;  // height of the video where the file's y grows upwards; 0: y down
   double rate_hz = 0;      // frame rate of the video, for files that say times and no frames
 };
 
-/// What a file says of one frame. A part that was not seen is absent (`Point::present()`).
+/// One frame of a file. Parts that were not seen are absent (`Point::present()`).
 struct ImportedFrame {
   int frame = 0;  // index in decoding order, from 0
   std::array<Point, kBodyPartCount> points;
@@ -34,10 +34,10 @@ struct ImportedPerson {
   double height_px = 0;  // median extent of the points
 };
 
-/// One person's points as another program found or somebody labelled them, in pixels as in
-/// `Point`. The pelvis is the file's own middle of the hips, or else the mean of its two hips; the
-/// head is the file's, or else the mean of the ears, or else the nose. Confidence is the file's,
-/// cut to [0, 1]; what a person labelled has 1, or 0.5 where it was marked as hidden.
+/// One person's points, detected or labelled, in pixels as in `Point`. The pelvis is the file's own
+/// middle of the hips, else the mean of its two hips; the head is the file's, else the mean of the
+/// ears, else the nose. Confidence is the file's, clamped to [0, 1]; labels have 1, hidden ones
+/// 0.5.
 struct Detections {
   std::string format;                  // one of import_formats()
   std::vector<ImportedFrame> frames;   // growing `frame`, each with at least one point

@@ -8,8 +8,8 @@
 
 namespace stride::imports {
 
-/// A JSON file whose errors name file, line, place and what was expected there. Keep it alive while
-/// its values are used.
+/// A JSON file whose errors name file, line, pointer and what was expected. It must outlive its
+/// values.
 class JsonFile {
  public:
   /// Throws Error naming file, line and column where `content` is not JSON.
@@ -26,7 +26,7 @@ class JsonFile {
   std::unique_ptr<nlohmann::json> json_;
 };
 
-/// A value in a JsonFile. Every function throws Error where the file does not hold what is asked.
+/// A value in a JsonFile. Every function throws Error if the value is not of the requested kind.
 class JsonValue {
  public:
   JsonValue(const JsonFile& file, const nlohmann::json& json, std::string pointer)

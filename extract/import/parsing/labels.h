@@ -11,7 +11,7 @@
 
 namespace stride::imports {
 
-/// Where the points of a file go. Made once from the names of the file's points, in its order.
+/// Maps the points of a file to our parts. Made once from the names of the file's points, in order.
 class LabelMap {
  public:
   /// Recognises the usual spellings (knee_r, RKnee, right_knee, Right Knee, …) and, before them,
@@ -27,14 +27,14 @@ class LabelMap {
  private:
   struct Target {
     BodyPart part;
-    int priority;  // the highest that is present wins; equals are averaged
+    int priority;  // the highest present one is used; equal ones are averaged
   };
   std::vector<std::vector<Target>> targets_;  // by label
 };
 
 /// Names of the points of the fixed layouts of 15 (OpenPose MPI), 17 (COCO), 18 (OpenPose COCO),
 /// 25 (OpenPose BODY_25), 26 and 136 (HALPE) and 133 (COCO-WholeBody) points; empty otherwise. A
-/// point of no use to us has an empty name. Source: the projects' own keypoint lists.
+/// point that we do not use has an empty name. Source: the projects' own keypoint lists.
 std::vector<std::string> layout_of(std::size_t points);
 
 }  // namespace stride::imports

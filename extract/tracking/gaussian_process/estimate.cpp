@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kMostTogether = 250;  // observations of a part in one regression
 
-/// Places of the pelvis at given times and at those of all observations.
+/// Pelvis positions at given times and at the times of all observations.
 class PelvisPath {
  public:
   PelvisPath(const Regression& pelvis, const Observations& observations, double origin_s,
@@ -33,7 +33,7 @@ class PelvisPath {
 
   const Vector2d& operator()(double time_s) const { return known_.at(time_s); }
 
-  /// The part of a sample that is the pelvis'.
+  /// The pelvis' contribution to a sample.
   Vector2d share_of(const Sample& s) const {
     return s.is_displacement() ? Vector2d((*this)(s.time_s) - (*this)(s.since_s))
                                : (*this)(s.time_s);
@@ -43,7 +43,7 @@ class PelvisPath {
   std::map<double, Vector2d> known_;
 };
 
-/// Samples of the same place or way, as one.
+/// Merges samples of the same position or displacement.
 class Pool {
  public:
   void add(const Sample& s, const Vector2d& p_px) {
@@ -94,8 +94,8 @@ Estimates estimate_together(const GaitPrior& prior, const Observations& observat
   if (pelvis_samples.empty()) return estimates;
   Regression pelvis(prior.trunk, centred(kPelvis, pelvis_samples, prior.size_px));
   {
-    // What the legs leave unexplained is the pelvis' too: one round of backfitting the sum of both
-    // (a second one changes nothing that could be measured).
+    // The residuals of the legs belong to the pelvis too: one round of backfitting. A second round
+    // has no measurable effect.
     const PelvisPath path(pelvis, observations, prior.origin_s);
     Pool pool;
     for (const Sample& s : pelvis_samples) pool.add(s, s.p_px);
@@ -111,7 +111,7 @@ Estimates estimate_together(const GaitPrior& prior, const Observations& observat
     pelvis = Regression(prior.trunk, centred(kPelvis, pool.samples(), prior.size_px));
   }
 
-  std::vector<double> own_s;  // from the origin
+  std::vector<double> own_s;  // relative to the origin
   for (const double time_s : times_s) own_s.push_back(time_s - prior.origin_s);
   const PelvisPath path(pelvis, observations, prior.origin_s);
   const auto of = [&](const Regression& regression, int left) {
@@ -151,7 +151,7 @@ Observations between(const Observations& observations, double from_s, double to_
   return some;
 }
 
-/// −log probability of knees and ankles about the pelvis, without constants.
+/// −log likelihood of knees and ankles relative to the pelvis, without constants.
 double negative_log_likelihood(const GaitPrior& prior, const Observations& observations) {
   const Regression pelvis(
       prior.trunk,
@@ -188,7 +188,8 @@ Estimates estimate(const GaitPrior& prior, const Observations& observations,
   for (const auto& part : observations) most = std::max(most, part.size());
   if (most <= kMostTogether) return estimate_together(prior, observations, times_s, with_variance);
 
-  // Cubic cost: a long clip goes in windows of two strides that see three more on either side.
+  // The cost is cubic, so a long clip is estimated in windows of two strides, each with the
+  // observations of three more strides on either side.
   const double window_s = 2 * prior.legs.period_s, margin_s = 3 * prior.legs.period_s;
   Estimates estimates;
   for (std::size_t i = 0; i < times_s.size();) {

@@ -21,7 +21,7 @@ std::vector<Sample> with_noise(std::vector<Sample> samples, double noise_px) {
   return samples;
 }
 
-/// Places relative to the pelvis at their times.
+/// Positions relative to the pelvis at the same times.
 std::vector<Sample> relative(std::vector<Sample> samples, const Regression& pelvis) {
   std::vector<double> times_s;
   for (const Sample& s : samples) times_s.push_back(s.time_s);
@@ -35,7 +35,7 @@ Regression pelvis_regression(const GaitPrior& prior, const Observations& clicks)
   return {prior.trunk, centred(kPelvis, with_noise(samples, prior.trunk.noise_px), prior.size_px)};
 }
 
-/// Knees and ankles, which say enough, about the pelvis.
+/// Knees and ankles relative to the pelvis; more parts add little.
 std::vector<GroupData> leg_data(const GaitPrior& prior, const Observations& clicks) {
   const Regression pelvis = pelvis_regression(prior, clicks);
   std::vector<GroupData> groups;
@@ -59,8 +59,8 @@ JointData joint_data(const GaitPrior& prior, const Observations& clicks) {
   return data;
 }
 
-/// Fewer clicks where there are many, as of a detector: enough for the kernels, at most ten a
-/// second or so, from the middle of the clip.
+/// A subset of many clicks, as from a detector: about ten a second from the middle of the clip
+/// suffice for the kernels.
 Observations thinned(const Observations& clicks) {
   Observations few;
   for (int i = 0; i < kBodyPartCount; ++i) {
@@ -76,7 +76,7 @@ Observations thinned(const Observations& clicks) {
   return few;
 }
 
-/// Rms distance of knees, ankles and toes from the pelvis clicked at the same time.
+/// Rms distance of knees, ankles and toes from the pelvis on the same frame.
 double leg_size_px(const Observations& clicks) {
   double squared = 0;
   int n = 0;
@@ -91,7 +91,8 @@ double leg_size_px(const Observations& clicks) {
   return n > 0 ? std::max(std::sqrt(squared / n), 10.0) : 90;
 }
 
-/// +1 if the runner faces right, −1 left: knees bend forward. 0 if no whole leg was clicked.
+/// +1 if the runner faces right, −1 left, because knees bend forward; 0 if no whole leg was
+/// clicked.
 int facing(const Observations& clicks) {
   const auto at = [&](BodyPart part, double time_s) -> const Vector2d* {
     for (const Observation& o : clicks[index(part)])
@@ -125,14 +126,14 @@ GaitPrior fit_gait_prior(const Observations& all_clicks) {
 
   prior.size_px = leg_size_px(clicks);
 
-  // The pelvis at first by a nearly free spline, then together with the legs.
+  // First the pelvis alone by a nearly free spline, then jointly with the legs.
   prior.trunk.residual = 1;
   const auto legs = leg_data(prior, clicks);
   if (legs.empty()) return prior;
   prior.legs = fitted(legs, facing(clicks)).kernel;
   prior.trunk = GaitKernel();
   prior.trunk.period_s = prior.legs.period_s;
-  prior.legs.noise_px /= std::numbers::sqrt2;  // a part of it was the noise of the pelvis
+  prior.legs.noise_px /= std::numbers::sqrt2;  // the other half of the variance was the pelvis'
   prior.trunk.noise_px = prior.legs.noise_px;
   return refined_together(prior, joint_data(prior, clicks), 3);
 }

@@ -6,16 +6,16 @@
 
 namespace stride::gaussian_process {
 
-/// The kernels under which the clicks are most likely, by their marginal likelihood. Observation
-/// variances are ignored: the noise of a click is what is found.
+/// Fits the kernels to the clicks by maximum marginal likelihood. The variances of the observations
+/// are ignored: the noise of a click is a hyperparameter.
 GaitPrior fit_gait_prior(const Observations& clicks);
 
-/// The prior with the period, near its own, under which the observations are most likely, ways
-/// included: what the picture shows between clicks tells periods apart that the clicks cannot.
+/// Refits the period alone, near the prior's own, to all observations including displacements. The
+/// motion between clicks separates periods that the clicks cannot separate.
 GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations);
 
-/// Each part at each time given the observations; pelvis first, the others relative to it. A part
-/// without observations has NaN. Variances cost most of the time; 0 without them.
+/// Posterior mean of each part at each time: first the pelvis, then the others relative to it. NaN
+/// for a part without observations. Variances, which take most of the time, are 0 unless asked for.
 Estimates estimate(const GaitPrior& prior, const Observations& observations,
                    const std::vector<double>& times_s, bool with_variance = true);
 

@@ -14,14 +14,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Joints clicked on the same frames have the same covariance.
+/// Joints that were clicked on the same frames share a covariance matrix.
 bool same_times(const GroupData& a, const GroupData& b) {
   return std::ranges::equal(a.samples, b.samples, [](const Sample& s, const Sample& t) {
     return s.time_s == t.time_s && s.left == t.left;
   });
 }
 
-/// −log of the probability of the samples, without constants.
+/// −log likelihood of the samples without constants.
 double negative_log_likelihood(const GaitKernel& kernel, const std::vector<GroupData>& groups) {
   double sum = 0;
   std::array<MatrixXd, 2> matrices;
@@ -44,7 +44,7 @@ double negative_log_likelihood(const GaitKernel& kernel, const std::vector<Group
   return sum;
 }
 
-/// A hyperparameter: where it is expected (log-normal) for legs and trunk, and allowed.
+/// A hyperparameter: its log-normal prior for legs and trunk, and its bounds.
 struct Expected {
   double value, spread;
 };
@@ -63,8 +63,7 @@ constexpr std::array kHyperparameters{
     Hyperparameter{&GaitKernel::residual_strides, {0.15, 0.3}, {0.15, 0.3}, 0.05, 0.6},
     Hyperparameter{&GaitKernel::noise_px, {0.7, 0.7}, {0.7, 0.7}, 0.05, 20}};
 
-/// Between clicks of one side. A stride that hardly more than one click saw cannot be told from
-/// others.
+/// Median time between clicks of one side. A stride with hardly more than one click is ambiguous.
 double median_spacing_s(const std::vector<Sample>& samples) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < samples.size(); ++i)
@@ -73,8 +72,8 @@ double median_spacing_s(const std::vector<Sample>& samples) {
   return spacings.empty() ? 0 : median(std::move(spacings));
 }
 
-/// −log probability that somebody who faces this way moves the feet so: they go back low and come
-/// forward high. A stride that is seen backwards goes round the other way.
+/// −log prior of the feet's direction of circulation: they move backwards low and forwards high. An
+/// alias that reverses time circulates the other way.
 double backwards_cost(const GaitKernel& kernel, const std::vector<GroupData>& groups, int facing) {
   constexpr int kPhases = 16;
   constexpr double kCost = 15, kUsualArea = 0.1;  // area in units of the squared size of the motion

@@ -11,13 +11,13 @@ struct Fitted {
   double cost;  // −log posterior probability, without constants
 };
 
-/// −log probability of the hyperparameters of legs, or of the trunk, before anything is seen.
+/// −log prior probability of the hyperparameters of legs or of the trunk.
 double improbability(const GaitKernel& kernel, bool legs);
 
 /// Of the kernels of legs.
 double cost(const GaitKernel& kernel, const std::vector<GroupData>& groups);
 
-/// Multiplies, or else divides, by a factor as long as that lowers the cost.
+/// Multiplies by a factor while that lowers the cost; if the first factor does not, divides.
 template <typename State, typename Multiply, typename Cost>
 void descend(State& best, double& least, double factor, int most_moves, Multiply multiply,
              Cost cost) {
@@ -38,9 +38,9 @@ void descend(State& best, double& least, double factor, int most_moves, Multiply
 /// Pattern search in the logarithms, one hyperparameter after another.
 Fitted refined(Fitted best, const std::vector<GroupData>& groups, int rounds);
 
-/// The best kernels of a scan over the period, refined. The likelihood has a peak at every alias of
-/// the clicks' spacing; the nearest shows the stride backwards in time. `facing`: +1 if the runner
-/// faces right, −1 left, 0 not known.
+/// Scans the period and refines the best kernels. The likelihood has a peak at every alias of the
+/// clicks' spacing; the nearest alias is the stride reversed in time. `facing`: +1 if the runner
+/// faces right, −1 left, 0 unknown.
 Fitted fitted(const std::vector<GroupData>& groups, int facing);
 
 }  // namespace stride::gaussian_process

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The times of all samples, each once, and which of them each sample has.
+/// The distinct times of all samples, and the index of each sample's times.
 struct Times {
   Instants instants;
   std::vector<Index> of_sample;

@@ -7,18 +7,18 @@
 
 namespace stride::gaussian_process {
 
-/// Clicks of the pelvis and of joints of both legs that are explained together: a joint is where
-/// the pelvis is and its own motion. Only so the noise of the pelvis' clicks is told from its
-/// motion: all joints seem to be off with it.
+/// Clicks of the pelvis and of the joints of both legs, modelled jointly: the position of a joint
+/// is the position of the pelvis plus its own motion. This identifies the noise of the pelvis
+/// clicks, which appears in every joint relative to the pelvis.
 struct JointData {
-  GroupData pelvis;             // places about their mean
-  std::vector<GroupData> legs;  // places about the mean of the pelvis and their own about it
+  GroupData pelvis;             // positions minus their mean
+  std::vector<GroupData> legs;  // positions minus the pelvis' mean and their own mean
 };
 
-/// −log of the probability of the clicks, without constants; both kernels' noise counts.
+/// −log likelihood of the clicks without constants, with the noise of both kernels.
 double negative_log_likelihood(const GaitPrior& prior, const JointData& data);
 
-/// The prior with the hyperparameters near its own under which the clicks are most likely.
+/// Maximises the likelihood over the hyperparameters, starting at the prior's own.
 GaitPrior refined_together(const GaitPrior& prior, const JointData& data, int rounds);
 
 }  // namespace stride::gaussian_process

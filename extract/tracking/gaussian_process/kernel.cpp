@@ -16,8 +16,8 @@ ArrayXd matern52(const ArrayXd& lag, double length) {
   return (1 + a + a.square() / 3) * (-a).exp();
 }
 
-/// Covariance of the integral of Brownian motion started at time 0 in either direction: its
-/// regression curve is the cubic smoothing spline.
+/// Covariance of integrated Brownian motion from time 0 in both directions. Its posterior mean is
+/// the cubic smoothing spline.
 ArrayXd integrated_walk(const ArrayXd& t, double u) {
   const ArrayXd a = t.abs().min(std::abs(u)), b = t.abs().max(std::abs(u));
   return (t * u > 0).select(a.square() * (b / 2 - a / 6), 0.0);
@@ -26,8 +26,8 @@ ArrayXd integrated_walk(const ArrayXd& t, double u) {
 }  // namespace
 
 Eigen::MatrixXd Covariance::operator()(const Instants& a, const Instants& b) const {
-  // A stride that repeats: exp(−2 sin²(x/2) / ℓ²) = exp((cos x − 1) / ℓ²), x the lag in phase; the
-  // cosine of the difference from those of the instants.
+  // Periodic kernel: exp(−2 sin²(x/2) / ℓ²) = exp((cos x − 1) / ℓ²), x the difference of phases.
+  // Its cosine follows from cosines and sines of the phases.
   const double per_s = 2 * std::numbers::pi / k.period_s, sharpness = 1 / square(k.length_scale);
   const ArrayXd strides = a.time_s / k.period_s, cos = (per_s * a.time_s).cos(),
                 sin = (per_s * a.time_s).sin();
@@ -45,7 +45,7 @@ Eigen::MatrixXd Covariance::operator()(const Instants& a, const Instants& b) con
           drift * (square(k.residual) * integrated_walk(strides, u) + 10 * (1 + strides * u));
       continue;
     }
-    // The left leg is half a stride behind, where the cosine changes its sign.
+    // The left leg is half a stride later, where the cosine changes its sign.
     const ArrayXd other_leg = (a.left - b.left[j]).abs();
     const ArrayXd repeated = (((1 - 2 * other_leg) * cos_lag - 1) * sharpness - forgotten).exp();
     result.col(j) = 4 + repeated +

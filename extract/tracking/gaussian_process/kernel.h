@@ -6,20 +6,20 @@
 
 namespace stride::gaussian_process {
 
-/// Instants of a group: times from the prior's origin, and the leg, 0 right or 1 left.
+/// Times of a group from the prior's origin, and the leg of each, 0 right or 1 left.
 struct Instants {
   Eigen::ArrayXd time_s, left;
 };
 
-/// Covariance in units of the group's variance.
+/// The covariance function, in units of the group's variance.
 struct Covariance {
   GaitKernel k;
   bool paired;       // a joint of both legs, else a part of the trunk
-  double drift = 0;  // variance of the trunk's path, the camera's drift with it
+  double drift = 0;  // variance of the trunk's path including the camera's drift
 
-  /// Of every instant of a (rows) with every one of b (columns).
+  /// Covariance of every time of a (rows) with every time of b (columns).
   Eigen::MatrixXd operator()(const Instants& a, const Instants& b) const;
-  /// Variance at one instant.
+  /// Variance at one time.
   double at(double time_s) const;
 };
 

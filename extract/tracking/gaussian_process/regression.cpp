@@ -11,11 +11,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The instants that samples begin and end at, each once: frames that follow one another share
-/// them.
+/// The distinct times at which samples begin and end; consecutive frames share them.
 struct Ends {
   Instants instants;
-  std::vector<Eigen::Index> end, begin;  // of each sample; begin −1: a place
+  std::vector<Eigen::Index> end, begin;  // of each sample; begin −1: a position
 };
 Ends ends_of(const std::vector<Sample>& samples) {
   Ends ends;
@@ -37,7 +36,8 @@ Ends ends_of(const std::vector<Sample>& samples) {
   return ends;
 }
 
-/// From covariances with instants (rows) those with samples: a way is the difference of its ends.
+/// Covariances with samples from covariances with times (rows): a displacement is the difference of
+/// its ends.
 MatrixXd rows_of_samples(const MatrixXd& of_instants, const Ends& ends) {
   MatrixXd result(static_cast<Eigen::Index>(ends.end.size()), of_instants.cols());
   for (Eigen::Index j = 0; j < result.cols(); ++j)
@@ -54,7 +54,7 @@ MatrixXd covariance_matrix(const Covariance& covariance, const Ends& ends) {
   return rows_of_samples(rows.transpose(), ends);
 }
 
-/// The covariance of each coordinate; the same for both unless the trunk drifts.
+/// The covariance matrix of each coordinate; equal for both unless the trunk drifts.
 std::array<Covariance, 2> covariances(const GaitKernel& kernel, const GroupData& data) {
   const bool paired = data.group.paired();
   return {Covariance{kernel, paired, data.drift.x()}, Covariance{kernel, paired, data.drift.y()}};

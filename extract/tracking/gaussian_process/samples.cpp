@@ -6,8 +6,8 @@ namespace stride::gaussian_process {
 
 using Eigen::Vector2d;
 
-/// How far a trunk moves about its path: a fraction of the leg. Were its scale taken from the
-/// clicks, a camera's drift would pass for motion that repeats wherever the clicks' spacing allows.
+/// Scale of the trunk's motion about its path, as a fraction of the leg. A scale from the clicks
+/// would let a camera's drift pass for periodic motion wherever the clicks' spacing allows it.
 constexpr double kTrunkSway = 0.015, kTrunkBob = 0.08, kDrift = 1.0;
 
 GroupData centred(Group group, std::vector<Sample> samples, double size_px) {

@@ -33,17 +33,17 @@ struct Sample {
   bool is_displacement() const { return !std::isnan(since_s); }
 };
 
-/// The samples of a group about their mean, with the scale of its motion.
+/// The samples of a group minus their mean, and the scale of the motion.
 struct GroupData {
   Group group;
   std::vector<Sample> samples;
-  Eigen::Vector2d mean_px, scale_px;  // scale: standard deviation of the motion that repeats
-  Eigen::Vector2d drift;              // of the trunk: variance of its path, in units of the scale
+  Eigen::Vector2d mean_px, scale_px;  // scale: standard deviation of the periodic motion
+  Eigen::Vector2d drift;              // trunk: variance of its path, in units of the scale
 };
 
 GroupData centred(Group group, std::vector<Sample> samples, double size_px);
 
-/// What was observed of a group; times from the origin.
+/// Collects the observations of a group. Times are relative to the origin.
 std::vector<Sample> samples_of(Group group, const Observations& observations, double origin_s);
 
 }  // namespace stride::gaussian_process

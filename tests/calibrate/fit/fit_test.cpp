@@ -12,7 +12,8 @@ SagittalModel default_model() {
   return sagittal_model(osim::load_osim(osim::default_model_file()));
 }
 
-/// Scale and roll are not in the marks: given. The marks are as good as their residuals say.
+/// Scale and roll are given, because the points do not determine them. The points are as good as
+/// their residuals say.
 fit::FitOptions known_scale_and_roll() {
   fit::FitOptions options;
   options.mark_sd = 0;
@@ -62,7 +63,7 @@ TEST(Fit, RecoversEverythingFromMarksWithoutNoise) {
     EXPECT_NEAR(fit.runner.body[i], runner.body[i], i == body::trunk ? 1 : 1e-6) << i;  // no head
   for (std::size_t i = 0; i < runner.sides.size(); ++i)
     EXPECT_NEAR(fit.runner.sides[i], runner.sides[i], 1e-6) << i;
-  // Angles of segments: how much of a thigh's angle is the pelvis' tilt is not in the marks.
+  // Angles of segments, because the points do not separate the pelvis' tilt from the thigh's angle.
   for (const int side : {1, -1})
     for (int i = 0; i < 20; ++i) {
       const double phase = i / 20.0;
@@ -118,7 +119,7 @@ TEST(Fit, WithNumericDerivativesIsTheSame) {
       1e-4);
 }
 
-/// A runner as the fit expects one: what the marks cannot show is drawn from the priors.
+/// A random runner from the priors of the fit.
 Runner random_runner(unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -134,8 +135,8 @@ Runner random_runner(unsigned seed) {
   return r;
 }
 
-// The truth lies inside the stated 95 % of the time. Within a clip the coordinates of the keyframes
-// are much alike, so that the spread of the count is that of a few numbers a clip.
+// The truth is inside the stated band 95 % of the time. Within a clip the coordinates of the
+// keyframes are correlated, so the count scatters as that of a few numbers a clip.
 TEST(Fit, StatesItsUncertainty) {
   const SagittalModel model = default_model();
   int inside = 0, all = 0, period_inside = 0;

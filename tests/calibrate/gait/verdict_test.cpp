@@ -91,7 +91,7 @@ TEST_F(Verdicts, AWrongFrameRateIsTold) {
 
 TEST_F(Verdicts, TwoPeopleWhoCrossAreTold) {
   Trajectory t = good();
-  // For a third of the clip the marks are on somebody who runs the other way through the frame.
+  // For a third of the clip the points are on somebody who runs in the other direction.
   const Trajectory other = synthetic_trajectory(
       synthetic_runner(), model_, {.duration_s = 2, .to_left = true, .noise_px = 1, .seed = 2});
   for (TrajectoryFrame& frame : t.frames)

@@ -83,7 +83,7 @@ TEST(Osim, BothDocumentVersionsLoadToTheSameModel) {
   EXPECT_EQ(text(three), text(four));
 }
 
-// The figures are those that OpenSim prints of the competition's file.
+// The numbers are those that OpenSim prints for the competition's file.
 TEST(Osim, LoadsTheCompetitionsFigures) {
   const osim::Model model = osim::load_osim(osim::default_model_file());
   ASSERT_EQ(model.bodies.size(), 13u);

@@ -158,7 +158,7 @@ TEST(AnnotationJournal, AKilledWindowLosesNoClick) {
     if (round % 2 == 0) annotation::fold_left_over_journal(file);
     annotation::AnnotationJournal journal(file, fresh());
     const auto& frames = journal.document().keypoints().frames;
-    // The last one may have been taken back, for it to be made again, when the program died.
+    // The last one may have been undone, to be redone, when the program died.
     ASSERT_GE(static_cast<int>(frames.size()), confirmed - (confirmed % 5 == 0 ? 1 : 0));
     ASSERT_LE(static_cast<int>(frames.size()), confirmed + 1);
     for (const auto& [number, frame] : frames) ASSERT_EQ(frame[BodyPart::knee_r]->p_px.x(), number);

@@ -12,7 +12,7 @@
 namespace stride {
 namespace {
 
-/// A shape that jitters, some of its points absent.
+/// A jittering figure with some points absent.
 Trajectory random_trajectory(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -45,7 +45,7 @@ OnnxModel simcc_network() {
   return model;
 }
 
-/// A person wherever a pixel is red, in a box of 20 × 30, three keypoints at given ways from it.
+/// A person at every red pixel, in a box of 20 × 30, with three keypoints at given offsets.
 const Eigen::Vector2d kWays[]{{0, -12}, {3, 2}, {-4, 11}};
 OnnxModel yolo_network() {
   std::vector<float> before, after;  // the channels before and after the confidence of the box
@@ -74,7 +74,7 @@ OnnxModel yolo_network() {
   return model;
 }
 
-/// What the three networks above give for the input of the self-check, computed here.
+/// The expected output of the three networks above for the input of the self-check.
 float map_of(const cv::Mat& input, int k, int y, int x) {
   float sum = 0;
   for (int c = 0; c < 3; ++c) {
@@ -246,7 +246,7 @@ TEST(Pose, ASidecarSaysWhatItLacks) {
   EXPECT_ERROR(load("decoder = \"heatmap\"\n"), "keypoints is missing");
 }
 
-/// Three spots that pass through a larger picture, found in a box that goes with them.
+/// Three spots that pass through a larger picture, found in a box that follows them.
 TEST(Pose, ABoxFollowsThePersonThroughTheVideo) {
   Model model;
   model.write(to_onnx(heatmap_network()),

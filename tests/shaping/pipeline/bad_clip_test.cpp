@@ -1,5 +1,5 @@
-// Clips that `stride convert` must refuse or flag: small videos with clicks, spoilt in one way
-// each, from the file to the potential.
+// Clips that `stride convert` must refuse or flag: small videos with clicks, each spoilt in one
+// respect, from the file to the potential.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ Clip jogger() {
   return copy;
 }
 
-/// What `stride convert` says of it. The potential says so too, where there is one.
+/// The verdict of `stride convert`, which the potential repeats if there is one.
 std::string verdict_of(Clip clip) {
   const TemporaryFolder folder;
   const auto file = folder / "clip.mp4";
@@ -91,7 +91,7 @@ void shift(cv::Mat& image, double by_px) {
                  cv::INTER_NEAREST, cv::BORDER_REPLICATE);
 }
 
-/// The same runner who runs the other way.
+/// The same runner in the other direction.
 Clip mirrored(Clip clip) {
   for (cv::Mat& frame : clip.frames) cv::flip(frame.clone(), frame, 1);
   move_clicks(clip, [&](const Eigen::Vector2d& p) {
@@ -138,7 +138,7 @@ TEST(BadClip, TwoPeopleWhoCrossAreToldOrRefused) {
   const Clip other = mirrored(clip);
   for (std::size_t i = 0; i < clip.frames.size(); ++i)
     cv::max(clip.frames[i], other.frames[i], clip.frames[i]);
-  // In the middle third the clicks are on the one who runs the other way.
+  // In the middle third the clicks are on the runner in the other direction.
   for (auto& [number, frame] : clip.clicks.frames)
     if (number >= kFrames / 3 && number < kFrames * 2 / 3) frame = other.clicks.frames.at(number);
   EXPECT_THAT(verdict_of(clip), HasSubstr("person"));

@@ -1,5 +1,4 @@
-// One run filmed in many ways makes one potential, within what the potential says of its own
-// uncertainty.
+// One run filmed in different ways gives the same potential within its stated uncertainty.
 #include <gtest/gtest.h>
 
 #include "shaping/keyframes.h"

@@ -66,7 +66,7 @@ double actor_value(ddpg::Agent<double>& agent, const network::Mlp<double>& criti
   return value;
 }
 
-/// The gradient as Adam saw it in its first step: m = (1 − β₁) g.
+/// The gradient from Adam's first step: m = (1 − β₁) g.
 Eigen::VectorXd seen(const network::Adam<double>& adam) {
   return adam.m / (1 - adam.options.beta1);
 }

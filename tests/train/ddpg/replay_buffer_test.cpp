@@ -18,8 +18,8 @@ environment::Mirror feature_mirror() {
 }
 environment::Mirror action_mirror() { return environment::mirror_by_name({"push_r", "push_l"}); }
 
-/// Episodes of random length in each environment, in the way of the training loop. Feature 0 says
-/// which record it is.
+/// Episodes of random length in each environment, added as by the training loop. Feature 0
+/// identifies the record.
 ddpg::ReplayBuffer<double> filled(std::int64_t rounds, std::int64_t capacity, Random& random) {
   ddpg::ReplayBuffer<double> buffer(
       {.features = 3, .actions = 2, .environments = kEnvironments, .capacity = capacity, .lead = 1},
@@ -48,7 +48,7 @@ ddpg::ReplayBuffer<double> filled(std::int64_t rounds, std::int64_t capacity, Ra
   return buffer;
 }
 
-/// What a sample must be, written down directly from the definition.
+/// The expected sample, directly from the definition.
 struct Expected {
   double reward = 0, discount = 1;
   std::int64_t last = 0;

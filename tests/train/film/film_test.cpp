@@ -33,7 +33,7 @@ cv::Vec3b colour_at(const cv::Mat& frame, simulation::PlanarVector p) {
                              static_cast<int>(std::lround(p.x)));
 }
 
-/// Pixels that are rather red or rather blue.
+/// Reddish or bluish pixels.
 int count(const cv::Mat& frame, bool red) {
   int sum = 0;
   for (int v = 0; v < frame.rows; ++v)
@@ -80,7 +80,7 @@ TEST(Film, ShowsObstaclesAndTheGroundMovingUnderTheRunner) {
   const cv::Mat with = film::film_frame(model, picture, options);
   const simulation::PlanarVector p = film::film_place(picture, options, {13.6, 0.05});
   EXPECT_GT(cv::norm(colour_at(with, p), colour_at(without, p)), 40);
-  // The same pose half a metre on: another place on the ground, the same place in the picture.
+  // The same pose half a metre ahead: another position on the ground, the same in the picture.
   picture.obstacles.clear();
   picture.state.q[simulation::kPelvisX] += 0.5;
   for (auto& body : picture.kinematics.bodies) body.position.x += 0.5;

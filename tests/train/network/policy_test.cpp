@@ -42,7 +42,7 @@ TEST(PolicyFile, GivesTheSameActions) {
   EXPECT_EQ(read.normaliser.inverse_sd(), policy.normaliser.inverse_sd());
 }
 
-/// What somebody else's program would do with the file, by the formula of its description.
+/// The action by the documented formula, as another program would compute it.
 TEST(PolicyFile, IsWhatItsDescriptionSays) {
   TemporaryFolder folder;
   const network::Policy<float> policy = some_policy();

@@ -11,8 +11,8 @@
 namespace stride {
 namespace {
 
-/// A runner of clockwork: 3 m/s, a stride of 0.7 s, each foot on the ground for 0.21 s of it, right
-/// at phase 0, left at phase ½; the ankle strikes under the pelvis.
+/// A regular runner: 3 m/s, a stride of 0.7 s, each foot on the ground for 0.21 s of it, right at
+/// phase 0, left at phase ½; the ankle strikes under the pelvis.
 class Clockwork : public ::testing::Test {
  protected:
   Clockwork() : model_(osim::load_osim(osim::default_model_file())) {

@@ -8,8 +8,8 @@
 
 namespace stride {
 
-/// A mass on a line that is to come to rest at 0: x″ = 4a − 2 under the action a in [0, 1], reward
-/// −x² − 0.1 v² a second. It falls off the line beyond ±2 and has 2 s of time.
+/// A point mass on a line that should come to rest at 0: x″ = 4a − 2 under the action a in [0, 1],
+/// reward −x² − 0.1 v² a second. It falls off the line beyond ±2 and has 2 s of time.
 class PointMass : public environment::Environment {
  public:
   PointMass() {

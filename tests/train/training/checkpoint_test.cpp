@@ -41,7 +41,7 @@ class Checkpoint : public ::testing::Test {
                                             [](int) { return std::make_unique<PointMass>(); });
   }
 
-  /// What is said to the checkpoint after `change`.
+  /// The error for the checkpoint after `change`.
   template <typename Change>
   void expect_refused(const char* text, const fs::path& file, const Change& change) {
     SCOPED_TRACE(text);

@@ -97,7 +97,7 @@ TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
   EXPECT_NE(trained(options, {.potential = potential, .reference = {}}, folder / "c"), curve);
 }
 
-/// Runs in a process of its own that is killed after a while. Returns whether it was still running.
+/// Runs in a child process that is killed after a while. Returns whether it was still running.
 bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -160,8 +160,8 @@ TEST(Train, StoppedItKeepsACheckpointAndContinues) {
   EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
 }
 
-/// Runs in a process of its own on a disk on which no file can grow beyond `bytes`. Returns whether
-/// it came to its end and said that it could not save.
+/// Runs in a child process whose files cannot grow beyond `bytes`. Returns whether it ended and
+/// reported that it could not save.
 bool trains_on_a_full_disk(const fs::path& run, rlim_t bytes) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -6,8 +6,8 @@
 
 namespace stride::competition {
 
-/// The generator behind numpy's `np.random.seed(seed)` and its draws, value by value: the
-/// competition's obstacles came from it.
+/// Numpy's generator after `np.random.seed(seed)`, value by value; the competition drew its
+/// obstacles from it.
 class NumpyRandom {
  public:
   explicit NumpyRandom(std::uint32_t seed) : bits_(seed) {}

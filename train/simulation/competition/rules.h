@@ -8,7 +8,7 @@
 
 namespace stride::competition {
 
-/// What is simulated where the competition's environment did not do what it meant to.
+/// The variants of the environment where the competition's had faults.
 ///
 ///                         clean                       nips2017
 ///   fibres at the start   in equilibrium              of the file, else 0.1 m        (O1)
@@ -18,14 +18,14 @@ namespace stride::competition {
 ///   unused obstacles      are not there               lie at (0, -0.1) and touch     (O5)
 ///   centre of mass        of the runner               with 0.1 g an obstacle
 ///
-/// The competition's observation was sometimes that of an earlier moment; neither does that.
+/// Neither repeats the competition's stale observations of body positions.
 enum class Rules { clean, nips2017 };
 
 /// Throws Error with the list of rules.
 Rules rules_named(std::string_view name);
 std::string_view name(Rules rules);
 
-/// Everything of an episode that is drawn.
+/// The random scene of an episode.
 struct Scene {
   std::vector<simulation::Obstacle> obstacles;  // in the order of x
   double strength_r = 1, strength_l = 1;        // of the psoas, of its maximum isometric force
@@ -40,11 +40,11 @@ Scene draw_scene(std::uint64_t seed, int difficulty, int max_obstacles);
 /// Throws Error naming the option that is out of range.
 void check_scene_options(int difficulty, int max_obstacles);
 
-/// `options` with what the rules say about contact.
+/// `options` with the contact options of the rules.
 simulation::EngineOptions under(Rules rules, simulation::EngineOptions options);
 
-/// Puts obstacles and strengths into the engine; under nips2017 unused obstacles up to
-/// `max_obstacles` are parked.
+/// Sets obstacles and strengths of the engine; under nips2017 unused obstacles up to
+/// `max_obstacles` are parked at (0, -0.1).
 void arrange(const Scene& scene, Rules rules, int max_obstacles, simulation::Engine& engine);
 
 /// Sets the rules' initial state: the file's default pose, fibres by the rules.

@@ -9,7 +9,7 @@
 
 namespace stride::competition {
 
-/// What is observed of a runner, by name. The first 41 are the competition's, in its order:
+/// The observation of a runner, by name. The first 41 are the competition's, in its order:
 ///
 ///    0   pelvis_tilt pelvis_tx pelvis_ty, then their speeds: suffix _u
 ///    6   hip_flexion_r knee_angle_r ankle_angle_r hip_flexion_l knee_angle_l ankle_angle_l
@@ -20,9 +20,9 @@ namespace stride::competition {
 ///   38   obstacle_x obstacle_y obstacle_radius: of the first obstacle whose far end is not behind
 ///        the pelvis, x from the pelvis; 100 0 0 if there is none
 ///
-/// then what they leave out: velocities of those origins (suffixes _vx, _vy), positions and
-/// velocities of the origins of tibia (the knee) and calcn (the heel), and each muscle's raw
-/// activation. rad, m, s; all but obstacle_x in the ground's axes, from its origin.
+/// then additional ones: velocities of those origins (suffixes _vx, _vy), positions and velocities
+/// of the origins of tibia (the knee) and calcn (the heel), and each muscle's raw activation. rad,
+/// m, s; all but obstacle_x in the ground's axes, from its origin.
 class Sensors {
  public:
   /// Throws Error if the model lacks one of those bodies.

@@ -31,8 +31,7 @@ inline constexpr int kMusclesOfLeg = 9, kMuscles = 2 * kMusclesOfLeg;
 
 using Excitations = std::array<double, kMuscles>;
 
-/// Everything that the dynamics depend on. rad, m, s; activation is the raw state (it may lie below
-/// 0.01, O7).
+/// The state of the dynamics. rad, m, s; activation is the raw state, which may be below 0.01.
 struct RunnerState {
   double time_s = 0;
   std::array<double, kCoordinates> q{}, u{};
@@ -49,7 +48,7 @@ struct PlanarVector {
   double x = 0, y = 0;
 };
 
-/// Quantities that follow from a state: origins of bodies in the ground (m, m/s), forces (N, N·m).
+/// Quantities computed from a state: origins of bodies in the ground (m, m/s), forces (N, N·m).
 struct RunnerKinematics {
   struct Frame {
     PlanarVector position, velocity;
@@ -63,34 +62,33 @@ struct RunnerKinematics {
   double energy_J = 0;                              // kinetic + gravitational
 };
 
-/// A sphere fixed in the ground at z = 0, which meets the spheres of the feet without friction.
+/// A sphere fixed to the ground at z = 0, in frictionless contact with the spheres of the feet.
 struct Obstacle {
   double x_m = 0, y_m = 0, radius_m = 0;
 };
 
-/// How the engine advances.
+/// Options of an engine.
 struct EngineOptions {
   double accuracy = 1e-3;  // of the error-controlled integration; see the engine
   bool fixed_step = false;
   double fixed_step_s = 2.5e-4;  // used if fixed_step
-  /// true: a contact force that would be ≤ 0 ends the evaluation of its force element, as Simbody's
-  /// HuntCrossleyForce does (O2); false: every contact counts.
+  /// true: a contact force that would be ≤ 0 drops the remaining contacts of its force element, as
+  /// in Simbody's HuntCrossleyForce; false: every contact counts.
   bool drop_contacts = false;
-  /// true: obstacles collide as spheres of 0.1 m with stiffness 1e7 whatever their radius (O4).
+  /// true: obstacles collide as spheres of 0.1 m with stiffness 1e7, whatever their radius.
   bool nominal_obstacles = false;
-  /// Upper bound of evaluations in one advance(); beyond it the state counts as one that cannot be
-  /// integrated.
+  /// Largest number of evaluations in one advance(); beyond it the integration has failed.
   int max_evaluations = 20000;
 };
 
-/// How one advance() went. A failure is a value: the state is then the last good one.
+/// Result of one advance(). After a failure the state is the last good one.
 struct AdvanceReport {
   bool ok = true;
   int steps = 0, rejected = 0, evaluations = 0;
   std::string failure;  // empty if ok
 };
 
-/// The dynamics of one runner. An engine owns all it needs: one per thread, no shared state.
+/// The dynamics of one runner. Engines share no state; use one per thread.
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -105,15 +103,14 @@ class Engine {
   virtual void set_strength(int muscle, double factor) = 0;
   virtual void set_obstacles(const std::vector<Obstacle>& obstacles) = 0;
 
-  /// Sets every fibre of the current state to the length at which fibre and tendon pull alike at
-  /// rest.
+  /// Sets every fibre of the current state to its static equilibrium with the tendon.
   virtual void equilibrate_fibers() = 0;
 
   /// Advances by duration_s under constant excitations (clipped to [0, 1] by the caller). Never
   /// throws.
   virtual AdvanceReport advance(const Excitations& excitations, double duration_s) = 0;
 
-  /// Of the current state.
+  /// For the current state.
   virtual RunnerDerivative derivative(const Excitations& excitations) = 0;
   virtual RunnerKinematics kinematics() = 0;
 

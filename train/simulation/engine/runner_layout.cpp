@@ -59,7 +59,7 @@ RunnerState mirrored(const RunnerState& state) {
 }
 
 RunnerState default_state(const osim::Model& model) {
-  constexpr double kOpenSimsFiberLength_m = 0.1;  // of a muscle whose file names none (O1)
+  constexpr double kOpenSimsFiberLength_m = 0.1;  // of a muscle without a default in the file
   const RunnerLayout layout = runner_layout(model);
   RunnerState state;
   for (int i = 0; i < kCoordinates; ++i) {

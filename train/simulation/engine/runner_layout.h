@@ -10,7 +10,7 @@
 
 namespace stride::simulation {
 
-/// Where the elements of a RunnerState are in a model.
+/// Maps the elements of a RunnerState to a model.
 struct RunnerLayout {
   std::array<int, kCoordinates> coordinate{};  // index into Model::coordinates
   std::array<int, kMuscles> muscle{};          // index into Model::muscles
@@ -20,15 +20,14 @@ struct RunnerLayout {
 /// tib_ant_l.
 const std::array<std::string, kMuscles>& muscle_names();
 
-/// Throws Error unless the model has exactly the runner's muscles, and its coordinates as the only
-/// ones that are not locked.
+/// Throws Error unless the model has exactly the runner's muscles and unlocked coordinates.
 RunnerLayout runner_layout(const osim::Model& model);
 
-/// The state in which the model's file leaves it: default coordinates and speeds, activations 0.05,
-/// fibres of the file's default length, else OpenSim's 0.1 m (O1).
+/// The default state of the model's file: coordinates and speeds, activations 0.05, default fibre
+/// lengths of the file, else OpenSim's 0.1 m.
 RunnerState default_state(const osim::Model& model);
 
-/// The same in the mirror: right and left legs exchanged.
+/// The mirrored state: right and left leg exchanged.
 RunnerState mirrored(const RunnerState& state);
 Excitations mirrored(const Excitations& excitations);
 

@@ -11,15 +11,15 @@
 
 namespace stride::integration {
 
-/// Merson's fourth-order Runge–Kutta method with its embedded error estimate, the one that OpenSim
-/// integrates with. `rate(y, ydot)` writes the derivative of y; `error_of(difference)` is the norm
-/// of an error estimate, to be kept below the accuracy.
+/// Merson's fourth-order Runge–Kutta method with its embedded error estimate, OpenSim's integrator.
+/// `rate(y, ydot)` writes the derivative of y; `error_of(difference)` is the norm of an error
+/// estimate, which is kept below the accuracy.
 template <std::size_t N>
 class MersonIntegrator {
  public:
   using Vector = std::array<double, N>;
 
-  /// Forgets the step size that the past suggested.
+  /// Forgets the step size of earlier calls.
   void restart() { step_s_ = 0; }
 
   /// Advances `y` by duration_s. On failure `y` is the last good state.
@@ -33,7 +33,7 @@ class MersonIntegrator {
     if (step_s_ <= 0) step_s_ = duration_s / 10;
     while (left > 0) {
       const double wanted = options.fixed_step ? options.fixed_step_s : step_s_;
-      // The last steps share what is left rather than leave a sliver.
+      // The last steps divide the rest evenly, so that no tiny step remains.
       const bool last = wanted >= left * (1 - 1e-12);
       const double h = last ? left : wanted > left / 2 ? left / 2 : wanted;
       if (report.evaluations + 5 > options.max_evaluations)
@@ -44,9 +44,9 @@ class MersonIntegrator {
       report.evaluations += 4;
       const double error = error_of(error_) / options.accuracy;
       const bool finite = std::isfinite(error) && is_finite(next_);
-      // A force that jumps lets no error estimate pass: steps this small cross it. Where it jumps
-      // back and forth (O2) that would take forever; after a quarter of the allowed evaluations
-      // longer steps cross, too, and the state slides along the jump.
+      // No error estimate is small across a discontinuous force, so steps this small are accepted.
+      // Where the force chatters that would take forever: after a quarter of the allowed
+      // evaluations longer steps are accepted too, and the state slides along the discontinuity.
       const double crossing_s = report.evaluations < options.max_evaluations / 4 ? 1e-12 : 1e-5;
       const bool crossing = h <= crossing_s;
       const bool accepted = finite && (error <= 1 || crossing || options.fixed_step);
@@ -62,7 +62,7 @@ class MersonIntegrator {
       const double proposal = accepted && error > 1 ? crossing_s
                               : accepted            ? h * std::clamp(factor, 0.1, 5.0)
                                                     : h * std::clamp(factor, 0.1, 0.9);
-      // A step cut short by the end of the interval says nothing against the longer one.
+      // A step cut short by the end of the interval does not reduce the step size.
       step_s_ = accepted && error <= 1 && h < wanted ? std::max(wanted, proposal) : proposal;
     }
     return report;

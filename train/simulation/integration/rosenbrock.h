@@ -5,12 +5,12 @@
 namespace stride::integration {
 
 /// ROS34PW2, a Rosenbrock–W method of Rang and Angermann (2005, BIT 45:761): four stages, third
-/// order with an embedded second, L-stable, and of that order whatever matrix stands for the
+/// order with an embedded second, L-stable, and of that order for any approximation of the
 /// Jacobian. The stages of y' = f(y) with the approximate Jacobian T are
 ///
 ///   (1/(h γ) - T) U_i = f(t + h time[i], y + Σ_j at[i][j] U_j) + Σ_j carry[i][j] / h U_j
 ///
-/// and the step goes to y + Σ weight[i] U_i, with the estimated error Σ error[i] U_i.
+/// and the result is y + Σ weight[i] U_i, with the estimated error Σ error[i] U_i.
 struct Rosenbrock {
   static constexpr int kStages = 4;
   using Row = std::array<double, kStages>;

@@ -9,9 +9,9 @@
 
 namespace stride::laws {
 
-/// Contact of a sphere with the ground or with another sphere: Hertz's spring with the damping of
-/// Hunt and Crossley and the regularised friction of Simbody's HuntCrossleyForce, both bodies of
-/// one material. The force acts half-way in depth, along the line of centres.
+/// Contact of a sphere with the ground or another sphere: Hertz's spring with Hunt–Crossley damping
+/// and the regularised friction of Simbody's HuntCrossleyForce, for two bodies of the same
+/// material. The force acts at half the depth, along the line of centres.
 struct ContactLaw {
   double plane_strain_modulus = 0;  // k = ½ stiffness^(2/3), N^(2/3)·m^(-4/3)
   double dissipation = 0;           // s/m
@@ -28,8 +28,8 @@ inline ContactLaw contact_law(const osim::ContactForce& force) {
           force.transition_velocity_m_s};
 }
 
-/// The force that pushes apart, N; negative where damping would pull: then there is none, neither
-/// normal nor friction. `radius_m` is the sphere's, or r₁r₂/(r₁+r₂) between two spheres.
+/// The normal force, N. Negative where damping would pull; there is then neither normal force nor
+/// friction. `radius_m` is the sphere's, or r₁r₂/(r₁+r₂) between two spheres.
 inline double normal_force(const ContactLaw& law, double radius_m, double depth_m,
                            double approach_m_s) {
   if (depth_m <= 0) return 0;
@@ -38,8 +38,8 @@ inline double normal_force(const ContactLaw& law, double radius_m, double depth_
   return hertz * (1 + 1.5 * law.dissipation * approach_m_s);
 }
 
-/// The force against a slip of speed `slip_m_s` ≥ 0, N; linear below the transition velocity, so
-/// nothing ever sticks.
+/// The friction force at a slip speed `slip_m_s` ≥ 0, N. It is linear below the transition
+/// velocity, so there is no stiction.
 inline double friction_force(const ContactLaw& law, double normal_N, double slip_m_s) {
   const double v = slip_m_s / law.transition_velocity_m_s;
   const double us = law.static_friction, ud = law.dynamic_friction;
@@ -48,9 +48,9 @@ inline double friction_force(const ContactLaw& law, double normal_N, double slip
 }
 
 /// Simbody's HuntCrossleyForce stops at the first contact of its element whose force is not
-/// positive and drops those that follow (O2). They follow in the order of Simbody's sweep: along
-/// that axis on which the plane's origin and the centres of the spheres vary most. True if the
-/// first of a foot's two spheres comes first; centres in the ground, m.
+/// positive and drops the remaining ones. Their order is that of Simbody's sweep, along the axis
+/// with the largest variance of the plane's origin and the spheres' centres. True if the first of a
+/// foot's two spheres comes first; centres in the ground, m.
 inline bool first_sphere_is_swept_first(const osim::Vec3& first, double first_radius_m,
                                         const osim::Vec3& second, double second_radius_m) {
   const auto variation = [&](int axis) {
@@ -62,8 +62,8 @@ inline bool first_sphere_is_swept_first(const osim::Vec3& first, double first_ra
   return first[axis] - first_radius_m <= second[axis] - second_radius_m;
 }
 
-/// Obstacles of "Learning to Run": frictionless, of stiffness 1e6/r with the radius that the file
-/// of the competition's environment names; but there every one collides as a sphere of 0.1 m (O4).
+/// Obstacles of "Learning to Run": frictionless, with stiffness 1e6/r for the radius r in the
+/// competition's scene; there, however, each collides as a sphere of 0.1 m.
 inline constexpr double kNominalObstacleRadius_m = 0.1;
 
 inline ContactLaw obstacle_law(double radius_m) {

@@ -8,8 +8,8 @@
 
 namespace stride::laws {
 
-/// OpenSim's CoordinateLimitForce in SI: beyond a limit a spring and a damper that come in over the
-/// width of the transition by the quintic step x³(10 - 15x + 6x²).
+/// OpenSim's CoordinateLimitForce in SI units: beyond a limit a spring and a damper, faded in over
+/// the transition by the quintic step x³(10 - 15x + 6x²).
 struct LimitLaw {
   double upper = 0, lower = 0, transition = 0;      // rad or m
   double upper_stiffness = 0, lower_stiffness = 0;  // N·m/rad or N/m
@@ -33,8 +33,8 @@ inline double limit_force(const LimitLaw& law, double q, double u) {
          law.damping * (up + low) * u;
 }
 
-/// How the force falls with the coordinate and with its speed, at rest: those of the spring and of
-/// the damper as far as they have come in.
+/// Stiffness and damping of the limit at rest: how the force decreases with the coordinate and with
+/// its speed.
 struct LimitSlopes {
   double stiffness = 0, damping = 0;
 };

@@ -123,7 +123,7 @@ MuscleForces muscle_forces(const MuscleLaw& law, double raw_activation, double f
 
 double equilibrium_fiber_length(const MuscleLaw& law, double raw_activation, double path_length_m) {
   const double a = std::clamp(raw_activation, law.minimum_activation, 1.0);
-  // How much harder the fibre pulls than the tendon: it grows while the tendon slackens.
+  // Fibre force minus tendon force, which grows as the tendon slackens.
   const auto excess = [&](double length) {
     const double c = cos_pennation(law, length);
     const double fiber_n = length / law.optimal_length_m;
@@ -136,7 +136,7 @@ double equilibrium_fiber_length(const MuscleLaw& law, double raw_activation, dou
   double low = law.minimum_length_m;
   double high = std::hypot(std::max(path_length_m - law.tendon_slack_m, 0.0), law.width_m);
   if (high <= low || excess(low) >= 0) return low;
-  // Bisection to the last bit: this is not in any loop, and the curves have corners.
+  // Bisection to the last bit: this is not time-critical, and the curves have corners.
   while (true) {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high) return middle;

@@ -6,13 +6,14 @@
 
 namespace stride::laws {
 
-/// The muscle of Thelen (2003, J. Biomech. Eng. 125:70) as OpenSim 4 codes it: a fibre (active and
-/// passive) at a pennation angle, in series with an elastic tendon. Its state is the raw activation
-/// and the fibre length; the fibre's speed follows from the balance of forces, inverted through the
-/// force–velocity curve. Suffix `n`: lengths in optimal fibre lengths, forces in the maximum
-/// isometric force, speeds in optimal fibre lengths times the maximum contraction velocity.
+/// The muscle of Thelen (2003, J. Biomech. Eng. 125:70) as implemented in OpenSim 4: a fibre
+/// (active and passive) at a pennation angle, in series with an elastic tendon. Its state is the
+/// raw activation and the fibre length; the fibre's speed follows from the balance of forces,
+/// inverted through the force–velocity curve. Suffix `n`: lengths in optimal fibre lengths, forces
+/// in the maximum isometric force, speeds in optimal fibre lengths times the maximum contraction
+/// velocity.
 
-/// What the laws need of a Muscle, derived once.
+/// Constants of a Muscle, computed once.
 struct MuscleLaw {
   explicit MuscleLaw(const osim::Muscle& muscle);
 
@@ -35,12 +36,12 @@ struct Slope {
 
 Slope active_force_length(const MuscleLaw& law, double fiber_n);
 Slope passive_force_length(const MuscleLaw& law, double fiber_n);
-/// Of the strain l/slack - 1: exponential toe, then a straight line; 0 when slack.
+/// As a function of the strain l/slack - 1: an exponential toe, then linear; 0 when slack.
 Slope tendon_force(const MuscleLaw& law, double strain);
 
-/// The fibre's normalised speed at which its active element bears `active_force_n` = a·fal·fv
-/// (OpenSim's calcdlceN); straight beyond `linear_from` of the eccentric asymptote and below 0.
-/// Derivative by active_force_n.
+/// The normalised fibre speed at which the active force is `active_force_n` = a·fal·fv (OpenSim's
+/// calcdlceN); linear beyond `linear_from` of the eccentric asymptote and below 0. Derivative by
+/// active_force_n.
 Slope fiber_speed(const MuscleLaw& law, double activation, double fal, double active_force_n);
 /// Its inverse: the multiplier fv at a normalised speed.
 double force_velocity(const MuscleLaw& law, double activation, double fal, double speed_n);
@@ -48,23 +49,23 @@ double force_velocity(const MuscleLaw& law, double activation, double fal, doubl
 /// Cosine of the pennation angle, which keeps the fibre's width constant.
 double cos_pennation(const MuscleLaw& law, double fiber_length_m);
 
-/// 1/s. The raw activation is clamped to [minimum, 1] but the excitation is not: below the minimum
-/// the raw state falls without end (O7).
+/// 1/s. The raw activation is clamped to [minimum, 1] but the excitation is not, so below the
+/// minimum the raw state decreases without bound.
 double activation_rate(const MuscleLaw& law, double raw_activation, double excitation);
 
 struct MuscleForces {
   double tendon_force_N = 0;
   double fiber_velocity_m_s = 0;
   double fal = 0, fpe = 0, fv = 0, cos_pennation = 1, tendon_strain = 0;
-  bool clamped = false;  // the fibre is at its minimum length and would shorten: it stands still
+  bool clamped = false;  // the fibre is at its minimum length and does not shorten further
 };
 
-/// Forces and fibre speed of a state; `path_length_m` is that of muscle and tendon together.
+/// Forces and fibre speed of a state; `path_length_m` is the length of muscle and tendon.
 MuscleForces muscle_forces(const MuscleLaw& law, double raw_activation, double fiber_length_m,
                            double path_length_m);
 
-/// The fibre length at which fibre and tendon pull alike with the fibre at rest: the shortest
-/// such; the minimum length if there the fibre still pulls harder. m.
+/// The shortest fibre length, m, at which fibre and tendon are in equilibrium with the fibre at
+/// rest; the minimum length if the fibre force exceeds the tendon's even there.
 double equilibrium_fiber_length(const MuscleLaw& law, double raw_activation, double path_length_m);
 
 }  // namespace stride::laws

@@ -17,8 +17,8 @@ struct PathLaw {
     int body = -1;
     osim::Vec3 location_m{};
     int coordinate = -1;  // of Model::coordinates; conditional, moving
-    /// Conditional: where it is present, OpenSim's slack of 1e-5 included. Moving: the range of the
-    /// coordinate, to which its location is clamped.
+    /// Conditional: the range in which it is present, with OpenSim's tolerance of 1e-5. Moving: the
+    /// range to which the coordinate is clamped.
     double range_min = 0, range_max = 0;
     std::array<osim::SplineCoefficients, 3> location;  // moving
   };
@@ -34,19 +34,19 @@ struct BodyFrame {
   double vx_m_s = 0, vy_m_s = 0, omega_rad_s = 0;
 };
 
-/// A path point that is present, in the ground.
+/// A path point that is present, in axes of the ground.
 struct PathNode {
   int body = -1;
   osim::Vec3 position_m{};
   osim::Vec3 velocity_m_s{};
-  osim::Vec3 pull{};    // what a tension of 1 N exerts on the body here, N
+  osim::Vec3 pull{};    // force on the body for a tension of 1 N, N
   int coordinate = -1;  // of a moving point: the coordinate that moves it in its body
-  /// ∂position/∂coordinate of that motion, m/rad. Location and derivative disagree outside of the
-  /// coordinate's range: OpenSim clamps the angle for the one and not for the other (O9).
+  /// ∂position/∂coordinate of that motion, m/rad. Outside the coordinate's range it is not the
+  /// derivative of the position, because OpenSim clamps the angle only for the position.
   osim::Vec3 derivative{};
 };
 
-/// Places the points that are present (O8) into `nodes`, which has room for all; returns how many.
+/// Writes the points that are present into `nodes`, which has room for all; returns their number.
 /// `q` and `u` in the order of Model::coordinates, `frames` in that of Model::bodies.
 int place_path(const PathLaw& path, const double* q, const double* u,
                const std::vector<BodyFrame>& frames, PathNode* nodes);
@@ -55,7 +55,7 @@ struct PathSummary {
   double length_m = 0, speed_m_s = 0;  // speed: of lengthening
 };
 
-/// Length and speed; sets each node's pull. Pieces within one body pull nothing.
+/// Length and speed; sets each node's pull. Pieces within one body exert no force.
 PathSummary pull_path(PathNode* nodes, int count);
 
 /// Generalised force of a tension of 1 N on the coordinate that moves `node` in its body.

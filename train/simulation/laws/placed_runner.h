@@ -9,8 +9,8 @@
 
 namespace stride::laws {
 
-/// A model at one moment: coordinates and speeds in the order of Model::coordinates, frames in that
-/// of Model::bodies.
+/// A model in a state: coordinates and speeds in the order of Model::coordinates, frames in that of
+/// Model::bodies.
 struct PlacedRunner {
   std::vector<double> q, u;
   std::vector<BodyFrame> frames;

@@ -43,8 +43,8 @@ double RunnerForces::muscle_length(int muscle, const PlacedRunner& runner) {
   return pull_path(nodes_.data(), count).length_m;
 }
 
-/// A force at a point of the ground's axes on a body; the ground (-1) takes what it gets. What
-/// leaves the plane is borne by the joints.
+/// Adds a force at a point in axes of the ground to a body; forces on the ground (-1) are ignored.
+/// The joints bear components out of the plane.
 void RunnerForces::push(const PlacedRunner& runner, int body, const osim::Vec3& point, double fx,
                         double fy) {
   if (body < 0) return;

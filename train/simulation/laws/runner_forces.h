@@ -15,8 +15,8 @@
 
 namespace stride::laws {
 
-/// Everything that pulls and pushes a runner: gravity, muscles, contact, joint limits. Written for
-/// any model in the sagittal plane, plainly: the planar engine has its own, faster.
+/// All forces on a runner: gravity, muscles, contact, joint limits. For any model in the sagittal
+/// plane; the planar engine has its own, faster implementation.
 class RunnerForces {
  public:
   /// Throws Error if options.drop_contacts and a contact has other than two spheres.
@@ -26,7 +26,7 @@ class RunnerForces {
   void set_strength(int muscle, double factor) { muscles_[muscle].strength = factor; }
   void set_obstacles(const std::vector<simulation::Obstacle>& obstacles);
 
-  /// What moves a body in the plane; the moment about the body's origin.
+  /// Force and moment on a body in the plane, about the body's origin.
   struct Wrench {
     double moment_Nm = 0, fx_N = 0, fy_N = 0;
   };

@@ -6,8 +6,8 @@
 
 namespace stride::planar {
 
-/// The activations over a stretch of constant excitation. Nothing else acts on them, so they are
-/// worked out beforehand, by Runge and Kutta's method between nodes and Hermite's cubic within: the
+/// The activations during a time of constant excitation. They depend on nothing else, so they are
+/// integrated ahead by the Runge–Kutta method from node to node, with Hermite cubics between; the
 /// integrator of the skeleton need not resolve them.
 class ActivationTrack {
  public:

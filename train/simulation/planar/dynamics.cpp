@@ -75,10 +75,11 @@ void PlanarDynamics::choose_paths() {
   }
 }
 
-/// Lengths and moment arms of all muscles.
+/// Lengths L and moment arms ∂L/∂q of all muscles, README (7).
 void PlanarDynamics::measure_paths(const PlanarKinematics& k, Arms& arms,
                                    std::array<V2, 10>& lengths) const {
   const Pair joint[3] = {k.origin[1], k.hinge, k.origin[3]};
+  // Path points in axes of the ground, relative to P.
   Pair at[PlanarModel::kMostPoints];
   const int points = static_cast<int>(model_.points.size());
   for (int i = 0; i < points; ++i) {
@@ -99,11 +100,13 @@ void PlanarDynamics::measure_paths(const PlanarKinematics& k, Arms& arms,
       const Pair outer = end(p.outer), d = outer - end(p.inner);
       const V2 dz = p.dz_m, weight = p.weight;
       const V2 piece = simd::sqrt(dot(d, d) + dz * dz);
-      const Pair along = weight / piece * d;
+      const Pair along = weight / piece * d;  // e, in the plane
       length += weight * piece;
+      // (7): (X - J_j) × e for every joint that the piece crosses,
       for (int j = muscle.first_joint; j <= muscle.last_joint; ++j) {
         arm[j] += p.crosses[j] * cross(outer - joint[j], along);
       }
+      // and, for a point that moves with the knee, its derivative along e.
       if (muscle.moving >= 0) {
         const PlanarModel::Point& point = model_.points[muscle.moving];
         arm[1] += p.moves * dot(k.turn(point.segment, k.moving_slope[point.function]), along);
@@ -111,7 +114,7 @@ void PlanarDynamics::measure_paths(const PlanarKinematics& k, Arms& arms,
     }
     lengths[m] = length;
   }
-  lengths[9] = lengths[8];
+  lengths[9] = lengths[8];  // fills the last group of four
 }
 
 void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation,
@@ -136,6 +139,7 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation,
     }
     rate.y[State::kFiber + g] = r.fiber_velocity_m_s;
     const V4 tension = forces_.tendon_N[g] = r.tendon_force_n * max_force_N_[g];
+    // (7): τ_j = -T ∂L/∂q_j. A group of four holds two muscles of both legs.
     for (int half = 0; half < 2 && 2 * g + half < PlanarModel::kMusclesOfLeg; ++half) {
       const int m = 2 * g + half;
       const V2 pull = half == 0 ? simd::low(tension) : simd::high(tension);
@@ -145,7 +149,7 @@ void PlanarDynamics::pull_muscles(const State& state, const Fibers& activation,
   if (linear) linear->arm = arms;
 }
 
-/// Joint limits; adds their springs and dampers to `linear`, if given.
+/// Torques of the joint limits. If `linear` is given, adds their stiffness and damping to it.
 void PlanarDynamics::push_limits(const State& state, std::array<V2, 3>& torque,
                                  PlanarLinear* linear) const {
   for (const PlanarModel::Limit& limit : model_.limits) {
@@ -165,7 +169,7 @@ void PlanarDynamics::evaluate(const State& state, const Fibers& activation, Stat
   if (linear) linear->stiffness = linear->damping = {};
   PlanarKinematics k;
   place(model_, state, interval_, k);
-  // First, so that the chain of divisions runs beside the muscles.
+  // The mass matrix comes first: the processor overlaps its chain of divisions with the muscles.
   PlanarEquations equations;
   assemble(model_, k, equations);
   if (linear) linear->mass = equations;

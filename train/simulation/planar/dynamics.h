@@ -14,15 +14,15 @@ namespace stride::planar {
 struct PlanarLinear;
 
 /// Equations of motion of a PlanarModel: one evaluation takes poses, speeds, activations and fibre
-/// lengths to accelerations and fibre velocities, without a branch that depends on more than which
-/// laws are at work, and without allocating. See README.md for the equations.
+/// lengths to accelerations and fibre velocities. It does not allocate, and branches only on which
+/// contacts, limits and path points are active. ../README.md has the equations by number.
 class PlanarDynamics {
  public:
   static constexpr int kGroups = PlanarModel::kMuscleGroups;
   using Fibers = PlanarFibers;
   using State = PlanarState;
 
-  /// What an evaluation leaves behind for observers.
+  /// By-products of an evaluation, for observers.
   struct Forces {
     Fibers tendon_N{}, path_m{};
     std::array<simulation::PlanarVector, PlanarModel::kLegs> ground_N{};
@@ -34,15 +34,15 @@ class PlanarDynamics {
   void set_strength(int interleaved_muscle, double factor);
   void set_obstacles(const std::vector<simulation::Obstacle>& obstacles);
 
-  /// Which conditional path points are present is a discrete state, frozen while a step of the
-  /// integration runs: one number a muscle and leg, an index into MusclePath::variants.
+  /// The set of conditional path points that are present, one index into MusclePath::variants for
+  /// each muscle and leg. It is a discrete state, frozen during a step of the integration.
   using Modes =
       std::array<std::array<unsigned char, PlanarModel::kLegs>, PlanarModel::kMusclesOfLeg>;
   Modes modes_at(const State& state) const;
   void set_modes(const Modes& modes);
   const Modes& modes() const { return modes_; }
 
-  /// Sets `linear`, if given, to the stiff part of the equations at this state.
+  /// If `linear` is given, sets it to the stiff part of the equations at this state.
   void evaluate(const State& state, const Fibers& activation, State& rate,
                 PlanarLinear* linear = nullptr);
   const Forces& forces() const { return forces_; }
@@ -50,7 +50,7 @@ class PlanarDynamics {
   /// Rates of the raw activations.
   Fibers activation_rate(const Fibers& activation, const Fibers& excitation) const;
 
-  /// Pose and velocity of each leg's segments in the ground; the first is the base.
+  /// Pose and velocity of each leg's segments in the ground; segment 0 is the base.
   using Frames = std::array<std::array<simulation::RunnerKinematics::Frame, PlanarModel::kSegments>,
                             PlanarModel::kLegs>;
   Frames frames(const State& state);
@@ -60,7 +60,7 @@ class PlanarDynamics {
 
  private:
   void choose_paths();
-  /// Moment arms about hip, knee, ankle: how much a path lengthens with the angle.
+  /// Moment arms ∂L/∂q about hip, knee, ankle, m.
   using Arms = std::array<std::array<simd::V2, 3>, PlanarModel::kMusclesOfLeg>;
   void measure_paths(const PlanarKinematics& k, Arms& arms,
                      std::array<simd::V2, PlanarModel::kMusclesOfLeg + 1>& lengths) const;
@@ -68,7 +68,7 @@ class PlanarDynamics {
                     State& rate, std::array<simd::V2, 3>& torque, PlanarLinear* linear);
   void push_limits(const State& state, std::array<simd::V2, 3>& torque, PlanarLinear* linear) const;
 
-  /// PlanarModel::Path of both legs, in the lanes, as the modes have it.
+  /// PlanarModel::Path of the current modes, both legs in lanes.
   struct Piece {
     std::array<int, PlanarModel::kLegs> inner{}, outer{};
     simd::V2 dz_m{}, weight{}, crosses[PlanarModel::kJoints]{}, moves{};

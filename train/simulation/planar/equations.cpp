@@ -10,7 +10,8 @@ using simd::V4;
 
 void assemble(const PlanarModel& model, const PlanarKinematics& k, PlanarEquations& legs) {
   const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};  // ankle, knee, hip
-  V2 mass{}, second{};  // of all that a joint carries, about the pelvis
+  // m_j, S_j and Q_j of all that a joint carries, about P: summed from the foot inwards.
+  V2 mass{}, second{};
   Pair first{};
   for (int i = 0; i < 3; ++i) {
     const int segment = 3 - i;
@@ -18,13 +19,16 @@ void assemble(const PlanarModel& model, const PlanarKinematics& k, PlanarEquatio
     mass += m;
     first = first + m * k.center[segment];
     second += model.inertia_kg_m2[segment] + m * dot(k.center[segment], k.center[segment]);
+    // (4): M_ij = Q_i - S_i · (J_i + J_j) + m_i J_i · J_j; the tilt turns about P, J = 0.
     for (int j = i; j < 3; ++j) {
       legs.matrix[i][j] = second - dot(first, joint[i] + joint[j]) + mass * dot(joint[i], joint[j]);
     }
     legs.matrix[i][3] = second - dot(first, joint[i]);
+    // (5): ẑ × (S_i - m_i J_i).
     legs.matrix[i][4] = mass * joint[i].y - first.y;
     legs.matrix[i][5] = first.x - mass * joint[i].x;
   }
+  // The leg's share of the pelvis rows: (4) and (5) with J = 0, and its mass.
   legs.matrix[3][3] = second;
   legs.matrix[3][4] = -first.y;
   legs.matrix[3][5] = first.x;
@@ -38,7 +42,8 @@ void assemble(const PlanarModel& model, const PlanarKinematics& k, PlanarEquatio
 
 void load(const PlanarModel& model, const PlanarKinematics& k, const std::array<V2, 3>& torque,
           const FootForces& feet, PlanarEquations& legs) {
-  // What the segments need beyond the accelerations of the coordinates: m (bias - gravity).
+  // Acceleration of each segment's origin at zero q̈: -ω² r of each link, and
+  // 2 ω₁ q̇ ẑ × R₁k' + q̇² R₁k'' of the knee's moving hinge.
   const auto squared = [&](int i) { return k.omega[i] * k.omega[i]; };
   const Pair gravity{both(model.gravity_x), both(model.gravity_y)};
   Pair bias[4];
@@ -48,6 +53,7 @@ void load(const PlanarModel& model, const PlanarKinematics& k, const std::array<
             k.knee_speed * k.knee_speed * k.hinge_bend;
   bias[3] = bias[2] - squared(2) * (k.origin[3] - k.origin[2]);
 
+  // (6): F and N about P, summed from the foot inwards; τ_j = torque - (N_j - J_j × F_j).
   Pair force{-feet.x, -feet.y};
   V2 turning = -feet.moment;
   const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
@@ -64,6 +70,7 @@ void load(const PlanarModel& model, const PlanarKinematics& k, const std::array<
   legs.right[4] = -force.x;
   legs.right[5] = -force.y;
 
+  // The same for the base's own body.
   const double m = legs.base_mass_kg, cx = legs.base_x_m, cy = legs.base_y_m;
   const double w2 = squared(0)[0];
   const double fx = m * (-w2 * cx - model.gravity_x), fy = m * (-w2 * cy - model.gravity_y);
@@ -73,6 +80,7 @@ void load(const PlanarModel& model, const PlanarKinematics& k, const std::array<
 }
 
 void eliminate(PlanarEquations& legs) {
+  // (8): for pivots p = ankle, knee, hip, L_pi = M_pi / M_pp and M_ij -= L_pi M_pj.
   for (int p = 0; p < 3; ++p) {
     legs.inverse[p] = 1 / legs.matrix[p][p];
     for (int i = p + 1; i < 6; ++i) {
@@ -80,7 +88,7 @@ void eliminate(PlanarEquations& legs) {
       for (int j = i; j < 6; ++j) legs.matrix[i][j] -= legs.factor[p][i] * legs.matrix[p][j];
     }
   }
-  // The base: its own body and what both legs leave.
+  // The pelvis: what remains of both legs, plus the base's own body, (4) and (5) with J = 0.
   const double m = legs.base_mass_kg, cx = legs.base_x_m, cy = legs.base_y_m;
   double(&a)[3][3] = legs.base_matrix;
   for (int i = 0; i < 3; ++i) {
@@ -100,6 +108,7 @@ void eliminate(PlanarEquations& legs) {
 }
 
 void solve(PlanarEquations& legs, PlanarState& rate) {
+  // Forward substitution through both legs, then the pelvis.
   for (int p = 0; p < 3; ++p) {
     for (int i = p + 1; i < 6; ++i) legs.right[i] -= legs.factor[p][i] * legs.right[p];
   }
@@ -109,6 +118,7 @@ void solve(PlanarEquations& legs, PlanarState& rate) {
     for (int i = p + 1; i < 3; ++i) b[i] -= legs.base_factor[p][i] * b[p];
   }
   const double(&a)[3][3] = legs.base_matrix;
+  // Back substitution: the pelvis, then hip, knee, ankle.
   double base[3];
   for (int p = 2; p >= 0; --p) {
     double right = b[p];

@@ -12,7 +12,7 @@ using simd::V4;
 
 namespace {
 
-constexpr double kTrack_s = 0.01;         // longest stretch whose activations are worked out ahead
+constexpr double kTrack_s = 0.01;         // longest time whose activations are integrated ahead
 constexpr double kImplicitDownTo = 3e-4;  // accuracy
 // What errors of speeds (rad/s, m/s), coordinates (rad, m) and fibres are measured against.
 // An ankle turns a foot of 1.5 kg, whose speed matters little to the rest, and decays.
@@ -52,8 +52,7 @@ simulation::AdvanceReport PlanarIntegrator::advance(PlanarDynamics& dynamics, St
                                                     Fibers& activation, const Fibers& excitation,
                                                     double duration_s) {
   simulation::AdvanceReport report;
-  // Enough nodes that the activations are exact beside the rest: theirs is a method of fourth
-  // order.
+  // Enough nodes that the error of the activations, a method of fourth order, is negligible.
   const double accuracy = options_.fixed_step ? 1e-3 : options_.accuracy;
   const int nodes = static_cast<int>(std::ceil(8 * std::pow(accuracy / 1e-3, -0.25)));
   const int tracks = std::max(1, static_cast<int>(std::ceil(duration_s / kTrack_s - 1e-9)));
@@ -78,7 +77,7 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
   dynamics.set_modes(dynamics.modes_at(y));
   double left = duration_s;
   bool have_first = false;
-  double cut = 0;  // length of a step that ends where a path point switches
+  double cut = 0;  // length of a step that ends at the switch of a path point
   while (left > 0) {
     if (report.evaluations + 5 > options_.max_evaluations) {
       return fail(report, "the evaluations ran out");
@@ -96,8 +95,9 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
 
     const double relative = error() / options_.accuracy;
     const bool finite = std::isfinite(relative);
-    // A force that jumps lets no error estimate pass: steps this small cross it. Where it jumps
-    // back and forth (O2), longer ones do after a while, and the state slides along the jump.
+    // No error estimate is small across a discontinuous force, so steps this small are accepted.
+    // Where the force chatters, longer steps are accepted after a while, and the state slides along
+    // the discontinuity.
     const bool patient = report.evaluations < options_.max_evaluations / 4;
     const double crossing_s = patient ? 1e-10 : 1e-5;
     const bool crosses = h <= crossing_s;
@@ -130,7 +130,7 @@ void PlanarIntegrator::advance_track(PlanarDynamics& dynamics, State& y, double 
   }
 }
 
-/// The steps that are still needed share what is left evenly.
+/// The remaining steps divide the rest of the duration evenly.
 double PlanarIntegrator::next_step(double left_s) const {
   const double wanted = options_.fixed_step ? options_.fixed_step_s : step_s_;
   if (wanted >= left_s * (1 - 1e-9)) return left_s;
@@ -143,7 +143,7 @@ void PlanarIntegrator::adapt(double h, double wanted, double error) {
   const double factor =
       std::isfinite(error) ? 0.85 * std::pow(std::max(error, 1e-6), -1 / order) : 0.1;
   const double proposal = h * std::clamp(factor, 0.1, good ? (rejected_ ? 1 : 1.5) : 0.9);
-  // A step cut short says nothing against the longer one that was wanted unless its error does.
+  // A step that was cut short reduces the step size only if its error does.
   step_s_ = good && h < wanted ? std::max(std::min(wanted, h * factor), proposal) : proposal;
   rejected_ = !good;
 }

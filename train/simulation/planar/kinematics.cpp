@@ -27,7 +27,8 @@ void place(const PlanarModel& m, const PlanarState& state, KneeIntervals& interv
   k.omega[2] = k.omega[1] + k.knee_speed;
   k.omega[3] = k.omega[2] + state.joint_u(2);
 
-  // The functions of the knee angle: a leg's in the lanes, then both legs' of each.
+  // The functions of the knee angle are cubics of the table's interval. They are evaluated with the
+  // functions of a leg in lanes, then transposed to both legs in lanes.
   V4 moving[PlanarModel::kLegs][2], value[PlanarModel::kLegs][2], slope[PlanarModel::kLegs][2];
   V4 bend[PlanarModel::kLegs];
   for (int leg = 0; leg < PlanarModel::kLegs; ++leg) {
@@ -68,6 +69,7 @@ void place(const PlanarModel& m, const PlanarState& state, KneeIntervals& interv
     legs(slope[0][n], slope[1][n], k.moving_slope[4 * n], k.moving_slope[4 * n + 2]);
   }
 
+  // (1)
   k.origin[0] = Pair{};
   k.origin[1] = k.turn(0, {m.hip_x_m, m.hip_y_m});
   const Pair thigh_to_knee = k.turn(1, hinge);
@@ -79,7 +81,7 @@ void place(const PlanarModel& m, const PlanarState& state, KneeIntervals& interv
   }
   k.hinge_speed = k.turn(1, hinge_slope);
   k.hinge_bend = k.turn(1, hinge_bend);
-  k.hinge = k.origin[2] + perp(k.hinge_speed);
+  k.hinge = k.origin[2] + perp(k.hinge_speed);  // (2)
   k.velocity_of_foot = Pair{both(state.u(7)), both(state.u(8))} + k.omega[0] * perp(k.origin[1]) +
                        k.omega[1] * perp(thigh_to_knee) + k.knee_speed * k.hinge_speed +
                        k.omega[2] * perp(knee_to_ankle);

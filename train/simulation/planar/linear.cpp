@@ -12,7 +12,7 @@ using simd::V4;
 
 namespace {
 
-/// Rows of a leg's system: ankle, knee, hip, tilt, x, y.
+/// A vector over ankle, knee, hip of both legs (in lanes) and tilt, x, y of the pelvis.
 struct Rows {
   V2 leg[3];
   double base[3];
@@ -54,10 +54,12 @@ V2 of_muscle(const PlanarFibers& f, int muscle) {
 
 void PlanarSolver::factor(const PlanarLinear& linear, double s) {
   s_ = s;
+  // d and g d of (b), four muscles at a time.
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
     delay_[g] = s / (1 - s * linear.fiber_1_s[g]);
     pull_[g] = linear.fiber_N_m[g] * delay_[g];
   }
+  // K' = K + Rᵀ (k_t - g d J_L) R. Rows are ankle, knee, hip; arms are hip, knee, ankle.
   spring_ = linear.stiffness;
   PlanarFibers stiffness;
   for (int g = 0; g < PlanarModel::kMuscleGroups; ++g) {
@@ -70,12 +72,14 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
       for (int j = 0; j < 3; ++j) spring_.at[i][j] += k * arm[2 - i] * arm[2 - j];
     }
   }
+  // W = M + s D + s² K'.
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       system_.at[i][j] = linear.mass.matrix[std::min(i, j)][std::max(i, j)] +
                          s * linear.damping.at[i][j] + s * s * spring_.at[i][j];
     }
   }
+  // Eliminate ankle, knee, hip of both legs: W_ij -= W_pi W_pj / W_pp.
   for (int p = 0; p < 3; ++p) {
     inverse_[p] = 1 / system_.at[p][p];
     for (int i = p + 1; i < 6; ++i) {
@@ -83,6 +87,7 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
       for (int j = p + 1; j < 6; ++j) system_.at[i][j] -= lower_[i][p] * system_.at[p][j];
     }
   }
+  // What remains of both legs, plus the mass matrix of the base's own body: 3×3 for the pelvis.
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) base_[i][j] = sum(system_.at[3 + i][3 + j]);
   }
@@ -103,7 +108,7 @@ void PlanarSolver::factor(const PlanarLinear& linear, double s) {
 
 void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& result) const {
   const Rows rq = rows_of(right, 0), ru = rows_of(right, State::kU);
-  // Right side: s (M Ru + Rᵀ g delay Rl - s K Rq).
+  // The right side of (c), over s: first M b_u, of the legs and of the base's own body,
   Rows b{};
   const auto& mass = linear.mass.matrix;  // its upper triangle
   multiply([&](int i, int j) { return mass[std::min(i, j)][std::max(i, j)]; }, 1, ru, b);
@@ -121,12 +126,13 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
     const V2 f = of_muscle(pulled, n);
     for (int i = 0; i < 3; ++i) b.leg[i] += f * linear.arm[n][2 - i];
   }
-  // Forward, base, back.
+  // Forward substitution through the legs,
   V2 r[6];
   for (int i = 0; i < 3; ++i) r[i] = s_ * b.leg[i], r[3 + i] = V2{};
   for (int p = 0; p < 3; ++p) {
     for (int i = p + 1; i < 6; ++i) r[i] -= lower_[i][p] * r[p];
   }
+  // then the pelvis,
   double c[3];
   for (int i = 0; i < 3; ++i) c[i] = s_ * b.base[i] + sum(r[3 + i]);
   for (int p = 0; p < 2; ++p) {
@@ -137,12 +143,14 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
     for (int j = p + 1; j < 3; ++j) c[p] -= base_[p][j] * u.base[j];
     u.base[p] = c[p] * base_inverse_[p];
   }
+  // and back through hip, knee, ankle.
   for (int p = 2; p >= 0; --p) {
     V2 left = r[p];
     for (int j = p + 1; j < 3; ++j) left -= system_.at[p][j] * u.leg[j];
     for (int j = 0; j < 3; ++j) left -= system_.at[p][3 + j] * both(u.base[j]);
     u.leg[p] = left * inverse_[p];
   }
+  // (a)
   Rows q;
   for (int i = 0; i < 3; ++i) {
     q.leg[i] = s_ * (rq.leg[i] + u.leg[i]);
@@ -150,6 +158,7 @@ void PlanarSolver::solve(const PlanarLinear& linear, const State& right, State& 
   }
   set_rows(result, 0, q);
   set_rows(result, State::kU, u);
+  // (b), with R q by muscle of a leg; the tenth fills the last group of four.
   V2 stretch[PlanarModel::kMusclesOfLeg + 1];
   for (int n = 0; n < PlanarModel::kMusclesOfLeg; ++n) {
     stretch[n] =

@@ -7,12 +7,14 @@
 
 namespace stride::planar {
 
-/// What makes the equations stiff, linearised at a state: the springs and dampers of contact and
-/// joint limits, and the chain of tendon and fibre. With unknowns q, u, l (fibre lengths) and
+/// The stiff part of the equations, linearised at a state: springs and dampers of contact and joint
+/// limits, tendons and fibres. With coordinates q, speeds u, fibre lengths l and moment arms R
 ///
-///   q' = u,   M u' = … - K q - D u - Rᵀ(k_t R q - g l),   l' = … + J_l l + J_L R q
+///   q' = u
+///   M u' = … - K q - D u - Rᵀ (k_t R q - g l)
+///   l' = … + J_l l + J_L R q
 ///
-/// where R are the moment arms. It need not be exact: the integrator's order does not depend on it.
+/// An approximation suffices, because the order of the integrator does not depend on it.
 struct PlanarLinear {
   using V2 = simd::V2;
   using Fibers = PlanarFibers;
@@ -20,7 +22,7 @@ struct PlanarLinear {
   struct Matrix {
     V2 at[6][6] = {};
   };
-  PlanarEquations mass;  // but for the right sides
+  PlanarEquations mass;  // M; the right sides are not set
   Matrix damping, stiffness;
   std::array<std::array<V2, 3>, PlanarModel::kMusclesOfLeg> arm{};  // hip, knee, ankle
   Fibers tendon_N_m{};                                              // k_t
@@ -29,7 +31,13 @@ struct PlanarLinear {
   Fibers stretch_1_s{};                                             // J_L
 };
 
-/// Solves (1/s - T) U = R for the linearisation T and a time s: the stages of the integrator.
+/// Solves (1/s - T) U = B for the linearisation T and s = hγ, once a stage of the integrator. By
+/// rows, with U = (q, u, l) and B = (b_q, b_u, b_l):
+///
+///   (a)  q = s (b_q + u)
+///   (b)  l = d (b_l + J_L R q),                       d = s / (1 - s J_l)
+///   (c)  W u = s (M b_u + Rᵀ g d b_l - s K' b_q),     K' = K + Rᵀ (k_t - g d J_L) R
+///                                                     W = M + s D + s² K', README (9)
 class PlanarSolver {
  public:
   using State = PlanarState;
@@ -42,8 +50,8 @@ class PlanarSolver {
   PlanarLinear::Matrix system_, spring_;
   simd::V2 inverse_[3], lower_[6][3];  // lower_[i][p]: of row p, what row i loses
   double base_[3][3], base_inverse_[3];
-  PlanarFibers delay_;  // s / (1 - s J_l)
-  PlanarFibers pull_;   // g · delay
+  PlanarFibers delay_;  // d
+  PlanarFibers pull_;   // g d
 };
 
 }  // namespace stride::planar

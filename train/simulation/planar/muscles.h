@@ -4,7 +4,7 @@
 
 namespace stride::planar {
 
-/// muscle_forces() of four muscles at once, if wanted with derivatives.
+/// muscle_forces() of four muscles at once, optionally with derivatives.
 struct MuscleGroup {
   simd::V4 tendon_force_n{};  // of the maximum force
   simd::V4 fiber_velocity_m_s{};

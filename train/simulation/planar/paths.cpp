@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kLegs = PlanarModel::kLegs;
 
+/// Builds the paths of one muscle after the other, right and left leg together.
 class PathBuilder {
  public:
   PathBuilder(const osim::Model& model, const simulation::RunnerLayout& layout,
@@ -57,12 +58,14 @@ class PathBuilder {
             model_.name, name(), reason);
   }
 
+  /// The segment of a path point, and where its body is in the segment.
   PlanarModel::Place place(int leg, std::size_t p) const {
     const int body = law_[leg].points[p].body;
     need(body >= 0, "its path has a point on the ground");
     return planar_.bodies[body];
   }
 
+  /// Both legs go through the same arithmetic, so their paths must have the same structure.
   void check_symmetry() const {
     need(law_[0].points.size() == law_[1].points.size(), "the other leg's path has other points");
     for (std::size_t p = 0; p < law_[0].points.size(); ++p) {
@@ -76,6 +79,7 @@ class PathBuilder {
     }
   }
 
+  /// The range of a joint angle in which a conditional point is present.
   PlanarModel::Condition condition(std::size_t p, int bit) const {
     PlanarModel::Condition c;
     c.bit = bit;
@@ -92,6 +96,7 @@ class PathBuilder {
     return c;
   }
 
+  /// The path with the conditional points whose bits are in `present`.
   PlanarModel::Path build_path(int leg, const std::vector<int>& bit, int present,
                                PlanarModel::MusclePath& muscle) {
     std::vector<std::size_t> order;
@@ -111,7 +116,7 @@ class PathBuilder {
     }
     need(count > 0, "its path crosses no joint");
     muscle.pieces = std::max(muscle.pieces, count);
-    if (count == 1) {
+    if (count == 1) {  // a second piece of weight 0 and length not 0, which costs no branch
       path.pieces[1].inner = path.pieces[0].inner;
       path.pieces[1].outer = path.pieces[0].outer;
       path.pieces[1].dz_m = 1;
@@ -119,6 +124,8 @@ class PathBuilder {
     return path;
   }
 
+  /// The piece between two points of different segments, `outer` the one further from the pelvis.
+  /// It crosses every joint between them and contributes to their moment arms, README (7).
   PlanarModel::Piece piece(int leg, std::size_t from, std::size_t to,
                            PlanarModel::MusclePath& muscle) {
     if (place(0, from).segment > place(0, to).segment) std::swap(from, to);
@@ -138,7 +145,7 @@ class PathBuilder {
     return piece;
   }
 
-  /// A fixed point's place in its segment.
+  /// Position of a fixed point in its segment, m.
   osim::Vec3 location(int leg, std::size_t p) const {
     const PlanarModel::Place at = place(leg, p);
     const osim::Vec3& v = law_[leg].points[p].location_m;
@@ -146,6 +153,7 @@ class PathBuilder {
     return {at.x_m + c * v[0] - s * v[1], at.y_m + s * v[0] + c * v[1], at.z_m + v[2]};
   }
 
+  /// Length of a piece within a segment, m.
   double distance(int leg, std::size_t p, std::size_t q) const {
     need(law_[leg].points[p].kind != osim::PathPoint::Kind::moving &&
              law_[leg].points[q].kind != osim::PathPoint::Kind::moving,
@@ -154,6 +162,7 @@ class PathBuilder {
     return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   }
 
+  /// Index of the point in PlanarModel::points; adds it at its first use.
   int point(std::size_t p, PlanarModel::MusclePath& muscle) {
     const bool moves = law_[0].points[p].kind == osim::PathPoint::Kind::moving;
     const auto known = known_.find({muscle_, p});
@@ -178,6 +187,7 @@ class PathBuilder {
     return known_[{muscle_, p}] = static_cast<int>(planar_.points.size()) - 1;
   }
 
+  /// Adds x and y of a moving point as functions of the knee angle; returns the index of x.
   int add_functions(int leg, std::size_t p) {
     const laws::PathLaw::Point& moving = law_[leg].points[p];
     const PlanarModel::Place at = place(leg, p);
@@ -209,7 +219,7 @@ class PathBuilder {
   std::map<std::pair<int, std::size_t>, int> known_;
 };
 
-/// The cubic of `f` that holds at `inside`, as powers of angle - origin.
+/// Coefficients of the cubic of `f` at the angle `inside`, in powers of (angle - origin).
 std::array<double, 4> cubic_at(const osim::SplineCoefficients& f, double inside, double origin) {
   const int i = osim::spline_interval(f, inside);
   const int k = std::max(i, 0);
@@ -219,6 +229,7 @@ std::array<double, 4> cubic_at(const osim::SplineCoefficients& f, double inside,
   return {f.y[k] + h * (b + h * (c + h * d)), b + h * (2 * c + 3 * h * d), c + 3 * h * d, d};
 }
 
+/// All functions of a knee angle on their common knots, so that one search finds all cubics.
 PlanarModel::KneeTable knee_table(const std::vector<osim::SplineCoefficients>& functions) {
   PlanarModel::KneeTable table;
   for (const osim::SplineCoefficients& f : functions) {

@@ -135,7 +135,7 @@ void touch_obstacles(const PlanarModel& m, const std::vector<PlanarObstacle>& ob
       if (distance2 >= reach * reach || distance2 == 0) continue;
       const double distance = std::sqrt(distance2), depth = reach - distance;
       const double nx = dx / distance, ny = dy / distance;
-      // Half-way in depth, on the line of centres; relative to the pelvis.
+      // At half the depth, on the line of centres; relative to the pelvis.
       const double from = m.sphere_radius_m[i] - depth / 2;
       const double at_x = x - from * nx, at_y = y - from * ny;
       const double vx = k.velocity_of_foot.x[leg] - k.omega[3][leg] * (at_y - k.origin[3].y[leg]);

@@ -14,11 +14,11 @@ struct PlanarObstacle {
   laws::ContactLaw law;
 };
 
-/// Of the ground. Adds springs and dampers to `linear`, if given.
+/// Contact of the feet with the ground. If `linear` is given, adds stiffness and damping to it.
 FootForces touch_ground(const PlanarModel& model, const PlanarState& state,
                         const PlanarKinematics& k, bool drop_contacts, PlanarLinear* linear);
 
-/// Adds those of the obstacles.
+/// Adds the contact with obstacles.
 void touch_obstacles(const PlanarModel& model, const std::vector<PlanarObstacle>& obstacles,
                      const PlanarState& state, const PlanarKinematics& k, FootForces& feet,
                      PlanarLinear* linear);

@@ -17,7 +17,7 @@ using Fibers = PlanarDynamics::Fibers;
 
 constexpr int kMusclesOfLeg = PlanarModel::kMusclesOfLeg;
 
-/// Place of a muscle of the competition's order among the interleaved ones.
+/// Interleaved index of a muscle in the competition's order.
 int interleaved(int muscle) { return 2 * (muscle % kMusclesOfLeg) + muscle / kMusclesOfLeg; }
 
 class PlanarEngine final : public simulation::Engine {

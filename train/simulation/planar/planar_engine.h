@@ -6,8 +6,8 @@
 
 namespace stride::planar {
 
-/// The fast engine: the equations of planar_dynamics.h under planar_integrator.h. Throws Error with
-/// the reason and the advice `--engine simbody` if it cannot represent the model.
+/// The fast engine: the equations of dynamics.h, integrated by integrator.h. Throws Error with the
+/// reason and the cure `--engine simbody` if it cannot represent the model.
 std::unique_ptr<simulation::Engine> make_planar_engine(const osim::Model& model,
                                                        const simulation::EngineOptions& options);
 

@@ -14,7 +14,7 @@ namespace {
 using simd::V2;
 using simd::V4;
 
-/// Refuses a model with the reason.
+/// Throws Error with the reason for refusing the model.
 template <typename... Args>
 void need(bool condition, const osim::Model& model, fmt::format_string<Args...> reason,
           Args&&... args) {
@@ -56,8 +56,7 @@ class Builder {
     return at == layout_.coordinate.end() ? -1 : static_cast<int>(at - layout_.coordinate.begin());
   }
 
-  /// Notes where the engine's coordinate that is Model::coordinates[c] lies in the interleaved
-  /// order.
+  /// Stores the interleaved index of the coordinate Model::coordinates[c].
   void assign(int c, int interleaved) {
     const int index = engine_index(c);
     need(index >= 0, model_, "coordinate {} is locked where a joint must move",

@@ -11,10 +11,10 @@
 
 namespace stride::planar {
 
-/// A Model as the planar engine sees it: a base (pelvis, torso, head) on which two legs stand, each
-/// of thigh, shank and foot on three joints about z: hip and ankle pins, the knee a hinge whose
-/// axis wanders in the thigh with its angle. Everything that does not move is worked out
-/// beforehand, and what belongs to a leg has two lanes, V2{first leg, second leg}.
+/// A Model as the planar engine represents it: a base (pelvis, torso, head) with two legs of thigh,
+/// shank and foot. Hip and ankle are pins; the knee is a hinge whose axis moves in the thigh with
+/// its angle. Constants are computed once. Quantities of a leg have two lanes, V2{first leg, second
+/// leg}.
 ///
 /// Coordinates are interleaved likewise: hip, knee, ankle of both legs at 2 · joint + leg, then
 /// tilt, x, y; muscles at 2 · muscle + leg.
@@ -27,8 +27,7 @@ struct PlanarModel {
                 "joints and nine muscles; another model runs on the simbody engine alone");
   static constexpr int kFunctions = 8;  // of the knee angle: the hinge x, y; moving points x, y
 
-  /// Where a body sits in its segment: a planar transform, and its constant height above the
-  /// sagittal plane.
+  /// Pose of a body in its segment: a planar transform and a constant z.
   struct Place {
     int leg = -1, segment = 0;  // leg -1: the base
     double angle_rad = 0, x_m = 0, y_m = 0, z_m = 0;
@@ -38,7 +37,7 @@ struct PlanarModel {
   double gravity_x = 0, gravity_y = 0;  // m/s²
   double total_mass_kg = 0;
 
-  /// Mass, moment of inertia about the centre of mass, and the centre of mass in the segment.
+  /// Mass, moment of inertia about the centre of mass, and centre of mass in the segment frame.
   std::array<simd::V2, kSegments> mass_kg{}, inertia_kg_m2{}, center_x_m{}, center_y_m{};
   simd::V2 hip_x_m{}, hip_y_m{}, ankle_x_m{}, ankle_y_m{};
 
@@ -54,7 +53,7 @@ struct PlanarModel {
   std::array<KneeTable, kLegs> knee;
   double knee_range_min[kLegs] = {}, knee_range_max[kLegs] = {};  // clamp moving points (O9)
 
-  /// Points that are an end of a piece between two segments.
+  /// End points of pieces between two segments.
   struct Point {
     int segment = 0;
     simd::V2 x_m{}, y_m{}, z_m{};
@@ -86,7 +85,7 @@ struct PlanarModel {
     int first_joint = 0, last_joint = 0;  // that the muscle crosses
     int moving = -1;                      // the point that moves, if one does
     std::vector<Condition> conditions;
-    /// By the bits of the conditions that hold.
+    /// Indexed by the bits of the conditions that hold.
     std::array<std::array<Path, kLegs>, 1 << kMostConditions> variants;
   };
   std::array<MusclePath, kMusclesOfLeg> paths;
@@ -116,7 +115,7 @@ struct PlanarModel {
   std::vector<Limit> limits;  // in the order of Model::limits
 };
 
-/// Throws Error with the reason and the advice `--engine simbody` if the model is not of this kind.
+/// Throws Error with the reason and the cure `--engine simbody` if the model has another topology.
 PlanarModel planar_model(const osim::Model& model);
 
 }  // namespace stride::planar

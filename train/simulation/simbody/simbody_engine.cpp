@@ -178,8 +178,8 @@ void SimbodyEngine::unpack(const States& y) {
 simulation::AdvanceReport SimbodyEngine::advance(const simulation::Excitations& excitations,
                                                  double duration_s) {
   States y = pack();
-  // The error of a fibre counts against its optimal length; angles, metres and speeds count as
-  // they are.
+  // Errors of fibres are relative to their optimal lengths; those of coordinates and speeds are
+  // absolute.
   const auto error_of = [&](const States& difference) {
     double largest = 0;
     for (int i = 0; i < kStates; ++i) {
@@ -197,7 +197,7 @@ simulation::AdvanceReport SimbodyEngine::advance(const simulation::Excitations& 
   simulation::AdvanceReport report;
   try {
     report = integrator_.advance(y, duration_s, options_, rate, error_of);
-  } catch (const std::exception& simbodys) {  // its own complaint about a state
+  } catch (const std::exception& simbodys) {  // Simbody's own error about a state
     report.ok = false;
     report.failure = simbodys.what();
   }

@@ -8,13 +8,13 @@
 
 namespace stride::simbody {
 
-/// The reference: Simbody 3.7's multibody dynamics under the shared laws of muscles, contact and
-/// limits. Throws Error if the model moves out of the sagittal plane.
+/// The reference engine: Simbody 3.7's multibody dynamics with the shared laws of muscles, contact
+/// and limits. Throws Error if the model leaves the sagittal plane.
 std::unique_ptr<simulation::Engine> make_simbody_engine(const osim::Model& model,
                                                         const simulation::EngineOptions& options);
 
-/// Whether the library that talks to Simbody was compiled with NDEBUG. It must not be: Debian's
-/// libsimbody is built without, and its types are laid out accordingly.
+/// Whether this library was compiled with NDEBUG. It must not be, because Debian's libsimbody is
+/// built without it and its type layout depends on it.
 bool simbody_engine_defines_ndebug();
 
 }  // namespace stride::simbody

@@ -157,8 +157,8 @@ PlanarMotion::At PlanarMotion::at(double q) const {
 
 SimbodySkeleton::SimbodySkeleton(const osim::Model& model, const simulation::RunnerLayout& layout)
     : matter(system), bodies(model.bodies.size()) {
-  // Bodies that stand still on their parent join the body that leads it; what is fixed to the
-  // ground leads itself.
+  // Bodies that do not move on their parent join the parent's leader; a body fixed to the ground is
+  // its own leader.
   const std::size_t n = model.bodies.size();
   std::vector<SimTK::Transform> in_leader(n);
   std::vector<SimTK::MassProperties> mass(n, {0, SimTK::Vec3(0), SimTK::Inertia(0)});

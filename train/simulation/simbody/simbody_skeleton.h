@@ -39,7 +39,7 @@ class SimbodySkeleton {
  public:
   SimbodySkeleton(const osim::Model& model, const simulation::RunnerLayout& layout);
 
-  /// Where a body of Model::bodies is: it is one of Simbody's, or fixed in a leader that is.
+  /// The pose of a body of Model::bodies: it is a Simbody body, or fixed in a leader that is.
   struct Placement {
     SimTK::MobilizedBodyIndex root{0};
     int leader = -1;                               // index into Model::bodies; -1: itself

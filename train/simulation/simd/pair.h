@@ -4,7 +4,7 @@
 
 namespace stride::simd {
 
-/// A vector of the sagittal plane for each leg; not zero by itself, for arrays of it are scratch.
+/// A vector of the sagittal plane for each leg. Not initialised, because arrays of it are scratch.
 struct Pair {
   V2 x, y;
 };

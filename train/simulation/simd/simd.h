@@ -7,8 +7,8 @@
 
 namespace stride::simd {
 
-/// Two and four doubles; g++ and clang lower them to whatever the processor has. V2 holds the right
-/// and the left leg, V4 two muscles or two spheres of either leg.
+/// Two and four doubles; g++ and clang compile them for any processor. V2 holds the right and the
+/// left leg, V4 two muscles or two contact spheres of both legs.
 using V2 = double __attribute__((vector_size(16)));
 using V4 = double __attribute__((vector_size(32)));
 using I4 = std::int64_t __attribute__((vector_size(32)));
@@ -25,7 +25,7 @@ inline V4 sqrt(V4 x) {
 #endif
 }
 
-#ifdef __AVX__  // spelled out, for g++ takes four instructions where a bound is constant
+#ifdef __AVX__  // explicit, because g++ needs four instructions where a bound is constant
 inline V4 max(V4 a, V4 b) { return _mm256_max_pd(a, b); }
 inline V4 min(V4 a, V4 b) { return _mm256_min_pd(a, b); }
 #else
@@ -54,12 +54,13 @@ inline V4 round(V4 x, I4& low) {
   return shifted - magic;
 }
 
-/// eˣ to 1e-15 relative for |x| < 700; beyond, that of the bound.
+/// eˣ to 1e-15 relative for |x| < 700; x is clamped to that range.
 inline V4 exp(V4 x) {
   x = max(min(x, all(700)), all(-700));
   I4 n;
   const V4 k = round(x * 1.4426950408889634, n);
-  // Cody and Waite: ln 2 in two parts, so that x - k ln 2 keeps its last bits. Then Taylor.
+  // Cody and Waite: x = k ln 2 + r, with ln 2 in two parts so that r keeps its last bits. Then the
+  // Taylor series of eʳ to r¹³, by Estrin's scheme, times 2ᵏ through the exponent bits.
   const V4 r = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
   const V4 r2 = r * r, r4 = r2 * r2;
   const V4 p01 = 1 + r, p23 = 1.0 / 2 + r * (1.0 / 6);

@@ -335,7 +335,7 @@ TEST_F(Annotating, AZoomedViewGoesWithTheRunner) {
   const double there = canvas(330, 180).x();
   session->go_to(0);
   EXPECT_NEAR(canvas(310, 180).x(), there, 1e-9);
-  session->go_to(8);  // nothing is known of it: the runner goes on as he came
+  session->go_to(8);  // nothing is known of it: the runner continues at the same speed
   EXPECT_NEAR(canvas(350, 180).x(), there, 1e-9);
 }
 

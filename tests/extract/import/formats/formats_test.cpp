@@ -1,5 +1,5 @@
-// Every sample of every format says the same figure (data/import/README.md), and no damaged file
-// does anything but import or throw Error.
+// Every sample of every format describes the same figure (data/import/README.md), and a damaged
+// file imports or throws Error.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -41,7 +41,7 @@ TEST(GaitPrior, FindsThePeriodOfTheStride) {
 }
 
 TEST(GaitPrior, TellsAStrideFromOneThatGoesBackwards) {
-  // Less than two clicks a stride: a stride of 0.741 s in reverse would be at the same places.
+  // Less than two clicks a stride: a stride of 0.741 s reversed in time is an alias.
   EXPECT_NEAR(gaussian_process::fit_gait_prior(clicks(0.36, 5)).legs.period_s, kPeriod_s, 0.02);
 }
 

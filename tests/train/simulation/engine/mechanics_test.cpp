@@ -7,7 +7,7 @@
 #include "train/environment/mirror.h"
 #include "train/environment/runner_environment.h"
 
-// What no law of nature lets an engine do, whatever the model's figures are.
+// Conservation laws and symmetries, whatever the model.
 
 namespace stride {
 namespace {

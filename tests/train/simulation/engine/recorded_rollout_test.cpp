@@ -40,7 +40,7 @@ std::unique_ptr<simulation::Engine> start(const char* engine_name, const std::st
 }
 
 /// Follows a recorded rollout, to 1e-5 rad or m in the first 0.2 s and 1e-4 in the first second,
-/// until its runner has fallen. Prints a row of the table in train/simulation/README.md.
+/// until its runner has fallen. Prints a row of the table in tests/bench/BENCHMARK.md.
 void follow(const char* engine_name, const std::string& scenario, const std::string& file,
             Start from) {
   const Reference recorded(file + scenario + ".csv");
@@ -112,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, CompetitionRollout,
 using Chatter = EachEngine;
 INSTANTIATE_FOR_EACH_ENGINE(Chatter);
 
-// With the right gluteus maximus alone at work a foot comes to where the competition's contact
-// drops the toe's force and gets it back without end (O2); OpenSim at 1e-7 did not pass 0.29 s.
+// With the right gluteus maximus alone active, the competition's contact drops the toe's force and
+// restores it endlessly; OpenSim at 1e-7 did not pass 0.29 s.
 TEST_P(Chatter, OfTheDroppedContactIsPassedWithinBounds) {
   const auto excitations = recorded_excitations("onehot_glut_max_r");
   const auto run = [&](double accuracy, int& most) {

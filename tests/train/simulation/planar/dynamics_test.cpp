@@ -16,8 +16,8 @@
 namespace stride {
 namespace {
 
-/// States from all over: falling, standing and pressed into the ground, at joint limits, within a
-/// hair of every path point's switch, on obstacles; fibres slack, taut and at their minimum length.
+/// Varied states: falling, standing and pressed into the ground, at joint limits, close to every
+/// path point's switch, on obstacles; fibres slack, taut and at their minimum length.
 class RandomStates {
  public:
   explicit RandomStates(const osim::Model& model)
