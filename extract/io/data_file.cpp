@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include <stride_version.h>
 #include "extract/io/error.h"
-#include "stride_version.h"
 
 namespace stride {
 namespace fs = std::filesystem;

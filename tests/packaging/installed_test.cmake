@@ -61,7 +61,10 @@ if(MAN)
 endif()
 find_program(BASH bash)
 if(BASH)
-  run(0 ${BASH} -c "source ${share}/bash-completion/completions/stride; COMP_WORDS=(stride ev) COMP_CWORD=1; _stride; echo \${COMPREPLY[@]}; COMP_WORDS=(stride train --pot) COMP_CWORD=2; _stride; echo \${COMPREPLY[@]}")
+  file(WRITE ${FOLDER}/complete.sh "source ${share}/bash-completion/completions/stride
+COMP_WORDS=(stride ev) COMP_CWORD=1\n_stride\necho \${COMPREPLY[@]}
+COMP_WORDS=(stride train --pot) COMP_CWORD=2\n_stride\necho \${COMPREPLY[@]}\n")
+  run(0 ${BASH} ${FOLDER}/complete.sh)
   expect("evaluate\n--potential")
 endif()
 
