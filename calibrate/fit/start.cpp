@@ -45,7 +45,7 @@ int max_harmonics(const Marks& observations, const Runner& runner) {
   return std::clamp((static_cast<int>(phases.size()) - 1) / 2, 2, kMaxHarmonics);
 }
 
-StrideFit start(const FitProblem& problem, const PeriodGuess& guess) {
+StrideFit start(const FitProblem& problem, const StridePeriod& guess) {
   StrideFit fit;
   const Marks& all = problem.observations;
   fit.toes_seen = all.sees(BodyPart::toe_r) || all.sees(BodyPart::toe_l);

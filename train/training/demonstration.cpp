@@ -26,7 +26,7 @@ void require_a_run(const Potential& p, const std::string& file) {
   require(!(p.speed_m_s > kFastest_m_s), "{}: {:.1f} m/s is faster than anybody", file,
           p.speed_m_s);
   for (const Keyframe& keyframe : p.keyframes) {
-    const double height_m = keyframe.pose.pelvis_height_m;
+    const double height_m = keyframe.pose.pelvis_height_m();
     require(height_m > 0.3 && height_m < 1.6,
             "{}: phase {}: the pelvis is {:.2f} m high, a runner's 0.3 to 1.6 m", file,
             keyframe.phase, height_m);
