@@ -81,7 +81,7 @@ TEST_F(DemonstrationTest, WhatIsNoRunOnThisModelIsRefused) {
   expect_refused([](Potential& p) { p.period_s = 5.49; }, "--slow-motion");
   expect_refused([](Potential& p) { p.speed_m_s = 18.6; }, "faster than anybody");
   expect_refused([](Potential& p) { p.model = "giraffe"; }, "was made on the model giraffe");
-  expect_refused([](Potential& p) { p.keyframes[3].pose.pelvis_height_m = 2.4; },
+  expect_refused([](Potential& p) { p.keyframes[3].pose.pelvis_height_m() = 2.4; },
                  "the pelvis is 2.40 m high");
 }
 
