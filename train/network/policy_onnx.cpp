@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "extract/io/onnx_writer.h"
+#include "extract/pose/onnx_writer.h"
 
 namespace stride::network {
 namespace {

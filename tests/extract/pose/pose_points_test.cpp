@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "extract/io/file.h"
-#include "extract/io/onnx_writer.h"
 #include "extract/pose/network.h"
+#include "extract/pose/onnx_writer.h"
 #include "extract/video/video_writer.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"

@@ -1,4 +1,4 @@
-#include "extract/io/onnx_writer.h"
+#include "extract/pose/onnx_writer.h"
 
 #include <gtest/gtest.h>
 
