@@ -89,7 +89,7 @@ explain("--slow-motion" track videos/human.mp4 --slow-motion 0)
 explain("must be a number in" convert videos/human.mp4 -o x --keyframes 1)
 expect("is a video, a trajectory file is needed" calibrate videos/human.mp4)
 expect("is a video, a potential is needed" train --potential videos/human.mp4 --out x)
-expect("is a folder, one video is needed" track videos --keypoints videos/human.keypoints.json)
+expect("videos: is a folder" track videos --keypoints videos/human.keypoints.json)
 expect("is an address (URL)" track https://example.invalid/run.mp4 --keypoints videos/human.keypoints.json)
 expect("leg = 0.1: must be in" convert videos/human.mp4 -o x --leg 0.1)
 

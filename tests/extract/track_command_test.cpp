@@ -73,7 +73,7 @@ TEST(TrackCommand, SaysWhatIsWrong) {
   write_file_atomically(folder / "far.csv",
                         "frame,pelvis_x,pelvis_y,pelvis_confidence\n5,1,1,1\n500,1,1,1\n");
   EXPECT_ERROR(run("track " + here + "/human.mp4 --import " + here + "/far.csv"),
-               "frame 500 is marked, but only 96 frames could be decoded");
+               "has points to frame 500, but the video has 96 frames");
 }
 
 }  // namespace

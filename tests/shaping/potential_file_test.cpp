@@ -51,15 +51,17 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
   };
   EXPECT_ERROR(load_potential(folder / "none.json"), "none.json: no such file");
   EXPECT_ERROR(load("# stride calibrated 1\n"), "is a table, a potential is needed");
-  EXPECT_ERROR(load("no"), "p.json: is not JSON");
+  EXPECT_ERROR(load("no"), "p.json: is a text, a potential is needed");
   EXPECT_ERROR(load("{}"), "p.json: is not a potential: the key format");
   EXPECT_ERROR(load(with(hamner_text(), "\"version\": 1", "\"version\": 2")),
                "version = 2: this program reads version 1; make the file anew");
   EXPECT_ERROR(load(with(hamner_text(), "\"pf3\"", "\"pf4\"")),
                "function = 'pf4': must be one of pf1, pf2, pf3");
   EXPECT_ERROR(load(with(hamner_text(), "0.6899", "0")), "stride.period_s = 0: must be positive");
-  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "NaN")), "p.json: is not JSON");
-  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "1e999")), "p.json: is not JSON");
+  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "NaN")),
+               "p.json: is a text, a potential is needed");
+  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "1e999")),
+               "p.json: is a text, a potential is needed");
   EXPECT_ERROR(load(with(hamner_text(), "\"phase\": 0.125", "\"phase\": 0.2")),
                "keyframes[1].phase = 0.2: must be 0.125");
   EXPECT_ERROR(load(with(hamner_text(), "\"phase\": 0.125", "\"phase\": null")),

@@ -86,7 +86,7 @@ TEST_F(Verdicts, WalkingIsTold) {
 TEST_F(Verdicts, AWrongFrameRateIsTold) {
   Trajectory t = good();
   for (TrajectoryFrame& frame : t.frames) frame.time_s *= 2;
-  EXPECT_THAT(judge(t), HasSubstr("frame rate or the slow-motion factor right?"));
+  EXPECT_THAT(judge(t), HasSubstr("is the frame rate right, or is it slow motion"));
 }
 
 TEST_F(Verdicts, TwoPeopleWhoCrossAreTold) {

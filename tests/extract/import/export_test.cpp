@@ -49,7 +49,9 @@ TEST(Export, EveryFormatReadsBackAsTheSamePoints) {
         EXPECT_EQ(back.frames[i].frame, trajectory.frames[i].frame);
         for (const BodyPart part : kBodyParts) {
           const Point &written = trajectory.frames[i][part], &read = back.frames[i][part];
-          ASSERT_EQ(read.present(), written.present()) << name(part);
+          ASSERT_EQ(read.present(), written.present())
+              << name(part) << " of frame " << back.frames[i].frame << ": "
+              << written.p_px.transpose();
           if (!written.present()) continue;
           EXPECT_EQ(read.p_px, written.p_px) << name(part);
           EXPECT_EQ(read.confidence, format == "trc" ? 1 : written.confidence) << name(part);

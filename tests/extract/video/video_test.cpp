@@ -96,7 +96,7 @@ TEST(Video, PadsOddSizesInsteadOfCuttingThem) {
 TEST(Video, SaysWhatIsWrongWithAFile) {
   const TemporaryFolder folder;
   EXPECT_ERROR(video::Video(folder / "none.mp4"), "none.mp4: no such video");
-  EXPECT_ERROR(video::Video(folder.path()), "is not a file");
+  EXPECT_ERROR(video::Video(folder.path()), "is a folder, one video is needed");
   write_file_atomically(folder / "text.mp4", "this is not a video\n");
   EXPECT_ERROR(video::Video(folder / "text.mp4"), "text.mp4: not a video");
   write_file_atomically(folder / "empty.mp4", "");

@@ -160,7 +160,7 @@ TEST(Convert, OneFailureStopsNoOther) {
 TEST(Convert, NamesAFileThatItCannotUse) {
   const TemporaryFolder folder;
   write_file_atomically(folder / "a.txt", "x");
-  EXPECT_ERROR(pipeline::expand_inputs({folder / "a.txt"}), "a.txt: must be a video");
+  EXPECT_ERROR(pipeline::expand_inputs({folder / "a.txt"}), "a.txt: is a text; must be a video");
   EXPECT_ERROR(pipeline::expand_inputs({folder / "none.mp4"}), "none.mp4: no such file");
   EXPECT_ERROR(pipeline::expand_inputs({folder.path()}), "no video with NAME.keypoints.json");
 }
