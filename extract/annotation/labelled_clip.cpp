@@ -2,12 +2,13 @@
 
 #include "extract/annotation/journal.h"
 #include "extract/io/error.h"
+#include "extract/video/video.h"
 
 namespace stride::tracking {
 namespace fs = std::filesystem;
 
 LabelledClip clicks_on(const fs::path& video, const fs::path& keypoints_file, double slow_motion) {
-  require(fs::exists(video), "{}: no such video", video.string());
+  video::require_video_file(video);
   annotation::fold_left_over_journal(keypoints_file);
   require(fs::exists(keypoints_file),
           "{}: no such file; click points with 'stride annotate {}', or import them with 'stride "

@@ -9,6 +9,7 @@
 #include "extract/pose/weights.h"
 #include "extract/tracking/corrections.h"
 #include "extract/tracking/leg_identity.h"
+#include "extract/video/video.h"
 
 namespace stride::tracking {
 namespace fs = std::filesystem;
@@ -54,7 +55,7 @@ double exchange_gain(const Trajectory& seen, const Trajectory& clicks) {
 }  // namespace
 
 LabelledClip points_of_video(const fs::path& video, const PointsOptions& options) {
-  require(fs::exists(video), "{}: no such video", video.string());
+  video::require_video_file(video);
   const fs::path file = options.keypoints.empty() ? keypoints_file_of(video) : options.keypoints;
   annotation::fold_left_over_journal(file);
   const bool clicked = fs::exists(file) || !options.keypoints.empty();

@@ -220,4 +220,6 @@ VideoTimes video_times(const std::filesystem::path& file, double slow_motion) {
   return times;
 }
 
+void require_video_file(const fs::path& file) { require_file(file); }
+
 }  // namespace stride::video

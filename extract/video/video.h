@@ -62,4 +62,8 @@ struct VideoTimes {
 };
 VideoTimes video_times(const std::filesystem::path& video, double slow_motion);
 
+/// Throws Error naming the cure where there is no such file, or it is a folder, an address or a
+/// camera.
+void require_video_file(const std::filesystem::path& file);
+
 }  // namespace stride::video
