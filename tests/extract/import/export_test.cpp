@@ -42,8 +42,9 @@ TEST(Export, EveryFormatReadsBackAsTheSamePoints) {
       const TemporaryFolder folder;
       const Trajectory trajectory = random_trajectory(seed);
       imports::export_points(trajectory, folder / "out", format);
-      const imports::Detections back =
-          imports::import_points(folder / "out", {.min_confidence = 0});
+      imports::ImportOptions options;
+      options.min_confidence = 0;
+      const imports::Detections back = imports::import_points(folder / "out", options);
       EXPECT_EQ(back.format, format);
       ASSERT_EQ(back.frames.size(), trajectory.frames.size());
       for (std::size_t i = 0; i < back.frames.size(); ++i) {
