@@ -488,11 +488,11 @@ TEST(AnnotationScript, AWholeAnnotationGivesTheGoldenFile) {
   }
 }
 
-TEST(AnnotationKeys, TheReadmeHasThemAll) {
-  const std::string readme =
-      read_file(std::filesystem::path(STRIDE_SOURCE_DIR) / "extract/annotation/README.md");
+TEST(AnnotationKeys, TheirPageHasThemAll) {
+  const std::string page =
+      read_file(std::filesystem::path(STRIDE_SOURCE_DIR) / "extract/annotation/keys.md");
   for (const annotation::KeyHelp& help : annotation::key_help())
-    EXPECT_THAT(readme, ::testing::HasSubstr(fmt::format("| {} | {} |", help.keys, help.does)));
+    EXPECT_THAT(page, ::testing::HasSubstr(fmt::format("| {} | {} |", help.keys, help.does)));
 }
 
 TEST_F(Annotating, AScriptSaysWhereItFails) {
