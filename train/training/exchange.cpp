@@ -19,6 +19,7 @@ class Message {
   template <typename T>
   void put(const T* values, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T>);
+    if (count == 0) return;  // an empty list has no address
     bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
   }
   template <typename T>
@@ -34,6 +35,7 @@ class Message {
   void get(T* values, std::size_t count) {
     require(at_ + count * sizeof(T) <= bytes_.size(),
             "a message of another rank is too short: all ranks must be the same program");
+    if (count == 0) return;
     std::memcpy(static_cast<void*>(values), bytes_.data() + at_, count * sizeof(T));
     at_ += count * sizeof(T);
   }
