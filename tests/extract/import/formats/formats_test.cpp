@@ -179,7 +179,7 @@ TEST(ImportFormats, DamagedFilesImportOrThrowErrorAndNothingElse) {
       }
     }
   }
-  EXPECT_GT(imported, 60);
+  EXPECT_GE(imported, 80);
   EXPECT_GT(refused, 200);
 }
 
