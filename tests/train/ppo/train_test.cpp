@@ -1,14 +1,12 @@
 #include "train/ppo/train.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
-#include <thread>
+#include <chrono>
 
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/train/support/killed_at_random_moments.h"
 #include "tests/train/support/point_mass.h"
 #include "train/ppo/slot.h"
 #include "train/training/curve.h"
@@ -86,33 +84,22 @@ TEST(PpoTrain, CurveDependsOnTheSeedAloneNotOnThreads) {
   EXPECT_NE(trained(options, demonstration, folder / "c"), curve);
 }
 
-/// Trains in a process of its own that is killed after a while. Whether it was still running.
-bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const std::atomic<bool> stop = false;
-    ppo::train(run, point_mass, stop, nullptr);
-    ::_exit(0);
-  }
-  std::this_thread::sleep_for(after);
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFSIGNALED(status);
-}
-
 TEST(PpoTrain, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TemporaryFolder folder;
   const training::Demonstration demonstration{.potential = some_potential(), .reference = {}};
   training::TrainOptions options = small_run();
   options.run.decisions = 20000;
   options.run.checkpoint_s = 0.01;
+  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted = trained(options, demonstration, folder / "a");
+  const auto duration = std::chrono::steady_clock::now() - begin;
   training::make_run_folder(options, demonstration, folder / "b");
-  Random random(17);
-  int kills = 0;
-  for (int i = 0; i < 12; ++i)
-    kills += train_and_kill(folder / "b", std::chrono::microseconds(uniform_index(random, 60'000)));
+  const int kills = killed_at_random_moments(
+      [&] {
+        const std::atomic<bool> stop = false;
+        ppo::train(folder / "b", point_mass, stop, nullptr);
+      },
+      duration);
   EXPECT_GT(kills, 3) << "the run is too short for this test";
   const std::atomic<bool> stop = false;
   EXPECT_TRUE(ppo::train(folder / "b", point_mass, stop, nullptr).finished);

@@ -9,11 +9,11 @@
 #include <csignal>
 #include <fstream>
 #include <memory>
-#include <thread>
 
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
+#include "tests/train/support/killed_at_random_moments.h"
 #include "tests/train/support/point_mass.h"
 #include "train/training/checkpoint.h"
 #include "train/training/curve.h"
@@ -97,34 +97,23 @@ TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
   EXPECT_NE(trained(options, {.potential = potential, .reference = {}}, folder / "c"), curve);
 }
 
-/// Runs in a child process that is killed after a while. Returns whether it was still running.
-bool train_and_kill(const fs::path& run, std::chrono::microseconds after) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const std::atomic<bool> stop = false;
-    training::train(run, point_mass, stop, nullptr);
-    ::_exit(0);
-  }
-  std::this_thread::sleep_for(after);
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFSIGNALED(status);
-}
-
 TEST(Train, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TemporaryFolder folder;
   const Potential potential = some_potential();
   training::TrainOptions options = small_run();
   options.run.decisions = 15000;
   options.run.checkpoint_s = 0.01;
+  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted =
       trained(options, {.potential = potential, .reference = {}}, folder / "a");
+  const auto duration = std::chrono::steady_clock::now() - begin;
   training::make_run_folder(options, {.potential = potential, .reference = {}}, folder / "b");
-  Random random(17);
-  int kills = 0;
-  for (int i = 0; i < 12; ++i)
-    kills += train_and_kill(folder / "b", std::chrono::microseconds(uniform_index(random, 60'000)));
+  const int kills = killed_at_random_moments(
+      [&] {
+        const std::atomic<bool> stop = false;
+        training::train(folder / "b", point_mass, stop, nullptr);
+      },
+      duration);
   EXPECT_GT(kills, 3) << "the run is too short for this test";
   const std::atomic<bool> stop = false;
   const training::TrainSummary summary = training::train(folder / "b", point_mass, stop, nullptr);
@@ -150,7 +139,9 @@ TEST(Train, ContinuedWithMoreDecisionsItGivesTheCurveOfALongerRun) {
 TEST(Train, StoppedItKeepsACheckpointAndContinues) {
   TemporaryFolder folder;
   const training::TrainOptions options = small_run();
+  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted = trained(options, {}, folder / "a");
+  const auto duration = std::chrono::steady_clock::now() - begin;
   training::make_run_folder(options, {}, folder / "b");
   std::atomic<bool> stop = true;
   EXPECT_FALSE(training::train(folder / "b", point_mass, stop, nullptr).finished);
@@ -182,7 +173,9 @@ TEST(Train, AFullDiskIsSurvivedAndTheRunContinuesFromTheCheckpointBefore) {
   TemporaryFolder folder;
   training::TrainOptions options = small_run();
   options.run.checkpoint_s = 0.01;
+  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted = trained(options, {}, folder / "a");
+  const auto duration = std::chrono::steady_clock::now() - begin;
   options.run.decisions = 1000;
   trained(options, {}, folder / "b");
   const auto checkpoint = fs::last_write_time(training::checkpoint_file(folder / "b"));
