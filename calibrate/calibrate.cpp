@@ -24,8 +24,8 @@ Calibration calibrate(const Trajectory& trajectory, const SagittalModel& model,
 
   fit::FitOptions options = given;
   if (const auto roll = fit::ground_roll(trajectory)) options.roll_rad = *roll;
-  fit_facing(trajectory, trajectory.direction == "left", model, options, result);
-  if (trajectory.direction.empty() && result.fit.ok && result.fit.backward)
+  fit_facing(trajectory, trajectory.direction == Facing::left, model, options, result);
+  if (!trajectory.direction && result.fit.ok && result.fit.backward)
     fit_facing(trajectory, true, model, options, result);
 
   gait::judge_fit(trajectory, result.observations, result.fit, result.gait, result.verdict);

@@ -10,6 +10,7 @@
 #include "calibrate/fitted.h"
 #include "calibrate/report/report.h"
 #include "calibrate/report/report_frames.h"
+#include "extract/commands/direction_option.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 struct CalibrateCommand {
   fs::path trajectory, out, fitted, video, overlay, model = osim::default_model_file();
   fit::RunnerSize size;
-  std::string direction;
+  std::optional<Facing> direction;
   bool force = false, no_picture = false, mot = false;
 };
 
@@ -74,7 +75,7 @@ void run(const CalibrateCommand& command) {
   const Files files = files_of(command);
   Trajectory trajectory = load_trajectory(command.trajectory);
   check_files(command, trajectory, files);
-  if (!command.direction.empty()) trajectory.direction = command.direction;
+  if (command.direction) trajectory.direction = command.direction;
   const SagittalModel model = sagittal_model(osim::load_osim(command.model));
   const Calibration result = calibrate(trajectory, model, fit::fit_options(command.size));
 
@@ -120,9 +121,7 @@ void add_calibrate_commands(CLI::App& app) {
   calibrate->add_option("--leg", command->size.leg_m, "the runner's hip to ankle, m");
   calibrate->add_option("--scale", command->size.metres_per_pixel,
                         "metres per pixel in the middle of the clip");
-  calibrate
-      ->add_option("--direction", command->direction, "right or left: the way the runner faces")
-      ->check(CLI::IsMember({"right", "left"}));
+  add_direction_option(*calibrate, command->direction);
   calibrate->add_option("--fitted", command->fitted,
                         "also write the fitted runner in the image, px: a trajectory for stride "
                         "track --prior");

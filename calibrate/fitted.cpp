@@ -37,7 +37,8 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
       const Eigen::Vector2d z =
           fit::predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
       fitted.frames[i][part] =
-          known ? Point{fit::image_px(trajectory, c.observations.to_left, z), 1} : Point{};
+          known ? Point{fit::image_px(trajectory, c.observations.to_left, z), Source::predicted, 1}
+                : Point{};
     }
   return fitted;
 }
@@ -58,7 +59,7 @@ Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
       const double phase = phase_at(fit.runner.cadence.data(), marks.u_s[i]);
       const auto nearest = std::lround(kPhases * (phase - std::floor(phase))) % kPhases;
       const double relative = 30 * sd[static_cast<std::size_t>(nearest)] / leg_px(fit.runner);
-      point.confidence = 0.3 / (1 + relative * relative);
+      point.confidence = kPredictedConfidence / (1 + relative * relative);
     }
   }
   return fitted;

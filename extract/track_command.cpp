@@ -113,7 +113,7 @@ void report(const tracking::Tracked& tracked) {
   const Trajectory& t = tracked.trajectory;
   fmt::print(stderr,
              "{} marked frames, frames {}–{} tracked\n"
-             "stride {}, noise of the marks {:.1f} px, flow believed on {:.0f} % of the unmarked "
+             "stride {}, noise of the marks {:.1f} px, flow inliers on {:.0f} % of the unmarked "
              "points\n",
              tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
              tracked.summary.labelled_frames < static_cast<int>(kFewestFrames)

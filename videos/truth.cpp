@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kClicksPerStride = 8;
 
-std::string direction(const Clip& clip) { return clip.to_left ? "left" : "right"; }
+Facing facing(const Clip& clip) { return clip.to_left ? Facing::left : Facing::right; }
 
 /// To so many decimals, so that files stay short.
 double rounded(double value, double decimals) {
@@ -29,14 +29,15 @@ Trajectory truth_px(const Clip& clip) {
   trajectory.width_px = clip.width_px;
   trajectory.height_px = clip.height_px;
   trajectory.rate_hz = clip.rate_hz * clip.slow_motion;
-  trajectory.direction = direction(clip);
+  trajectory.direction = facing(clip);
   for (int i = 0; i < clip.frames; ++i) {
     TrajectoryFrame& frame = trajectory.frames.emplace_back();
     frame.frame = i;
     frame.time_s = clip.time_s(i);
     const Skeleton skeleton = motion.skeleton(frame.time_s);
     const PinholeCamera camera = motion.camera(frame.time_s);
-    for (const BodyPart part : kBodyParts) frame[part] = {camera.project(skeleton[part]), 1};
+    for (const BodyPart part : kBodyParts)
+      frame[part] = {camera.project(skeleton[part]), Source::clicked, 1};
   }
   return trajectory;
 }
@@ -48,7 +49,7 @@ Table truth_m(const Clip& clip) {
   table.set_meta("unit", "m, rad");
   table.set_meta("video", clip.name + ".mp4");
   table.set_meta("source", clip.gait.source);
-  table.set_meta("direction", direction(clip));
+  table.set_meta("direction", std::string(kFacings[facing(clip)]));
   const auto number = [&](const char* key, double value) {
     table.set_meta(key, fmt::format("{}", value));
   };
@@ -89,10 +90,10 @@ Keypoints clicks(const Clip& clip) {
   keypoints.video = truth.video;
   keypoints.width_px = clip.width_px;
   keypoints.height_px = clip.height_px;
-  keypoints.direction = direction(clip);
+  keypoints.direction = facing(clip);
   if (clip.treadmill) keypoints.treadmill = true;
   keypoints.slow_motion = clip.slow_motion;
-  keypoints.near_leg = clip.to_left ? "left" : "right";
+  keypoints.near_leg = clip.to_left ? Side::left : Side::right;
   Random random(clip.seed * 15485863 + clip.click_seed);
   const double step = clip.gait.period_s / clip.time_s(kClicksPerStride);
   for (double at = 0; at < clip.frames - 0.5; at += step) {

@@ -13,9 +13,6 @@
 namespace stride::gait {
 namespace {
 
-constexpr double kPriorOnlyConfidence =
-    0.3;  // confidence up to which a point comes from the tracker's prior alone
-
 /// The distance that holds 90 % of the values.
 double spread(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -53,9 +50,8 @@ void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
     if (count < kLeastFrames || count * 4 < frames)
       verdict.refuse(fmt::format("{} is marked in {} of {} frames: a quarter is needed; mark it",
                                  name(part), count, frames));
-    else if (std::ranges::none_of(trajectory.frames, [&](const TrajectoryFrame& frame) {
-               return frame[part].present() && frame[part].confidence > kPriorOnlyConfidence;
-             }))
+    else if (std::ranges::none_of(trajectory.frames,
+                                  [&](const TrajectoryFrame& frame) { return frame[part].seen(); }))
       verdict.refuse(fmt::format(
           "{} is seen in no frame: what the other leg does tells nothing of it; mark it",
           name(part)));
@@ -185,9 +181,7 @@ void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict)
   std::array<const TrajectoryFrame*, 2> gap{};
   double longest_s = 0;
   for (const TrajectoryFrame& frame : trajectory.frames) {
-    if (std::ranges::none_of(frame.points, [](const Point& point) {
-          return point.present() && point.confidence > kPriorOnlyConfidence;
-        }))
+    if (std::ranges::none_of(frame.points, [](const Point& point) { return point.seen(); }))
       continue;
     if (last != nullptr && frame.time_s - last->time_s > longest_s)
       longest_s = frame.time_s - last->time_s, gap = {last, &frame};

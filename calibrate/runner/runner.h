@@ -59,24 +59,6 @@ inline constexpr std::size_t kRunnerParameters = [] {
 }();
 static_assert(kRunnerParameters * sizeof(double) == sizeof(Runner), "for_each_block forgets one");
 
-/// Which way a leg of the runner is told from the other: +1 right, −1 left.
-inline int side_of(BodyPart part) {
-  switch (part) {
-    case BodyPart::hip_r:
-    case BodyPart::knee_r:
-    case BodyPart::ankle_r:
-    case BodyPart::toe_r:
-      return 1;
-    case BodyPart::hip_l:
-    case BodyPart::knee_l:
-    case BodyPart::ankle_l:
-    case BodyPart::toe_l:
-      return -1;
-    default:
-      return 0;
-  }
-}
-
 /// Phase at `u_s` from the middle of the clip.
 template <typename T>
 T phase_at(const T* cadence, double u_s) {
@@ -134,13 +116,13 @@ Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body
       sides[sides::hip_y] + sides[sides::drop_cos] * c + sides[sides::drop_sin] * s);
   const T magnification = 1.0 + side * sides[sides::depth];
   Vector2<T> p = hips + side * swing;
-  if (part != BodyPart::hip_r && part != BodyPart::hip_l) {
+  const int below = joints_below_hip(part);
+  if (below > 0) {
     const T thigh_angle = tilt + leg.hip, shank_angle = thigh_angle + leg.knee;
     p += turned(thigh_angle, Vector2<T>(T(0), -body[body::thigh]));
-    if (part != BodyPart::knee_r && part != BodyPart::knee_l) {
+    if (below > 1) {
       p += turned(shank_angle, Vector2<T>(T(0), -body[body::shank]));
-      if (part == BodyPart::toe_r || part == BodyPart::toe_l)
-        p += body[body::foot] * turned(T(shank_angle + leg.ankle), directions.foot);
+      if (below > 2) p += body[body::foot] * turned(T(shank_angle + leg.ankle), directions.foot);
     }
   }
   return magnification * p;

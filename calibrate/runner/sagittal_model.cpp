@@ -102,19 +102,16 @@ SagittalModel sagittal_model(const osim::Model& model) {
 
 void place_parts(const SagittalModel& model, CalibratedSample& sample) {
   const auto& q = sample.coordinates;
-  const auto set = [&](BodyPart part, const Eigen::Vector2d& p) { sample.p_m[index(part)] = p; };
   const auto right = place_leg(model, q[0], q[3], q[4], q[5]);
   const auto left = place_leg(model, q[0], q[6], q[7], q[8]);
-  set(BodyPart::pelvis, Eigen::Vector2d::Zero());
-  set(BodyPart::hip_r, right.hip);
-  set(BodyPart::knee_r, right.knee);
-  set(BodyPart::ankle_r, right.ankle);
-  set(BodyPart::toe_r, right.toe);
-  set(BodyPart::hip_l, left.hip);
-  set(BodyPart::knee_l, left.knee);
-  set(BodyPart::ankle_l, left.ankle);
-  set(BodyPart::toe_l, left.toe);
-  set(BodyPart::head, turned(q[0], model.p_pelvis_head_m));
+  for (const BodyPartRow& part : kBodyPartRows) {
+    if (!part.side) continue;
+    const auto& leg = *part.side == Side::right ? right : left;
+    sample.p_m[index(part.part)] =
+        std::array{leg.hip, leg.knee, leg.ankle, leg.toe}[joints_below_hip(part.part)];
+  }
+  sample.p_m[index(BodyPart::pelvis)].setZero();
+  sample.p_m[index(BodyPart::head)] = turned(q[0], model.p_pelvis_head_m);
 }
 
 double lowest_point(const SagittalModel& model, const Leg<double>& leg) {

@@ -58,6 +58,27 @@ struct Leg {
   T foot_angle;  // of the talus' frame
 };
 
+/// Where a part of a leg is in the chain: 0 hip, 1 knee, 2 ankle, 3 toe.
+inline int joints_below_hip(BodyPart part) {
+  switch (part) {
+    case BodyPart::pelvis:
+    case BodyPart::head:
+    case BodyPart::hip_r:
+    case BodyPart::hip_l:
+      return 0;
+    case BodyPart::knee_r:
+    case BodyPart::knee_l:
+      return 1;
+    case BodyPart::ankle_r:
+    case BodyPart::ankle_l:
+      return 2;
+    case BodyPart::toe_r:
+    case BodyPart::toe_l:
+      return 3;
+  }
+  return 0;
+}
+
 /// Angles as OpenSim's coordinates, rad.
 template <typename T>
 Leg<T> place_leg(const SagittalModel& model, const T& tilt, const T& hip, const T& knee,

@@ -7,26 +7,30 @@
 
 namespace stride::annotation {
 
-std::vector<BodyPart> asking_order(const std::string& near_leg, bool hips, bool head) {
-  const std::array<BodyPart, 4> right{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
-                                      BodyPart::hip_r};
-  std::vector<BodyPart> order{BodyPart::pelvis};
-  for (const bool near : {true, false})
-    for (std::size_t i = 0; i < (hips ? 4 : 3); ++i)
-      order.push_back((near_leg != "left") == near ? right[i] : mirrored(right[i]));
-  if (head) order.push_back(BodyPart::head);
+std::vector<BodyPart> asking_order(Side near_leg, bool hips, bool head) {
+  const Side far_leg = near_leg == Side::right ? Side::left : Side::right;
+  std::vector<BodyPart> order;
+  const auto add = [&](std::optional<Side> side, auto asked) {
+    for (const BodyPartRow& each : kBodyPartRows)
+      if (each.side == side && asked(each.prompt)) order.push_back(each.part);
+  };
+  const auto of_leg = [&](Prompt p) {
+    return p == Prompt::always || (hips && p == Prompt::with_hips);
+  };
+  add(std::nullopt, [](Prompt p) { return p == Prompt::always; });
+  add(near_leg, of_leg);
+  add(far_leg, of_leg);
+  add(std::nullopt, [&](Prompt p) { return head && p == Prompt::with_head; });
   return order;
 }
 
-bool is_near(BodyPart part, const std::string& near_leg) {
-  return name(part).ends_with(near_leg == "left" ? "_l" : "_r");
-}
+bool is_near(BodyPart part, Side near_leg) { return row(part).side == near_leg; }
 
-std::string spoken(BodyPart part, const std::string& near_leg) {
-  if (mirrored(part) == part) return std::string(name(part));
-  const std::string_view whole = name(part);
+std::string spoken(BodyPart part, Side near_leg) {
+  const std::optional<Side> side = row(part).side;
+  if (!side) return std::string(name(part));
   return fmt::format("{} {} ({})", is_near(part, near_leg) ? "near" : "far",
-                     whole.substr(0, whole.size() - 2), whole.ends_with("_l") ? "left" : "right");
+                     row(part).nouns.front(), kSides[*side]);
 }
 
 std::optional<BodyPart> next_missing(const Keypoints& keypoints, int frame,

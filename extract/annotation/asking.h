@@ -10,12 +10,12 @@ namespace stride::annotation {
 
 /// The order in which the parts of a frame are asked for: pelvis, near leg downwards, far leg
 /// downwards, optional parts.
-std::vector<BodyPart> asking_order(const std::string& near_leg, bool hips, bool head);
+std::vector<BodyPart> asking_order(Side near_leg, bool hips, bool head);
 
 /// The name of a part on the screen: "near knee (right)", "pelvis".
-std::string spoken(BodyPart part, const std::string& near_leg);
+std::string spoken(BodyPart part, Side near_leg);
 
-bool is_near(BodyPart part, const std::string& near_leg);
+bool is_near(BodyPart part, Side near_leg);
 
 /// The first part of `order` after `after`, cyclically, that has no click on the frame; nothing if
 /// the frame is complete.

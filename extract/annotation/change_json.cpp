@@ -22,7 +22,7 @@ int frame_of(const Json& json) {
 
 Json json_of(const std::optional<Click>& click) {
   if (!click) return nullptr;
-  Json json{{"state", name(click->state)}, {"p_px", json_of(click->p_px)}};
+  Json json{{"state", kClickStates[click->state]}, {"p_px", json_of(click->p_px)}};
   if (!click->other_json.empty()) json["other"] = click->other_json;
   return json;
 }
@@ -31,9 +31,7 @@ std::optional<Click> click_of(const Json& json) {
   if (json.is_null()) return std::nullopt;
   Click click;
   click.p_px = point_of(json.at("p_px"));
-  const std::string state = json.at("state");
-  for (const ClickState s : {ClickState::seen, ClickState::estimated, ClickState::absent})
-    if (state == name(s)) click.state = s;
+  click.state = kClickStates.find(json.at("state").get<std::string>()).value_or(click.state);
   click.other_json = json.value("other", "");
   require(click.other_json.empty() || Json::parse(click.other_json).is_object(),
           "\"other\" = {}: must be an object", click.other_json);
@@ -41,8 +39,8 @@ std::optional<Click> click_of(const Json& json) {
 }
 
 Json json_of(const ClipSettings& s) {
-  Json json{{"direction", s.direction},
-            {"near_leg", s.near_leg},
+  Json json{{"direction", name_or_empty(kFacings, s.direction)},
+            {"near_leg", name_or_empty(kSides, s.near_leg)},
             {"slow_motion", s.slow_motion},
             {"notes", s.notes}};
   if (s.treadmill) json["treadmill"] = *s.treadmill;
@@ -53,8 +51,8 @@ Json json_of(const ClipSettings& s) {
 
 ClipSettings settings_of(const Json& json) {
   ClipSettings s;
-  s.direction = json.at("direction");
-  s.near_leg = json.at("near_leg");
+  s.direction = kFacings.find(json.at("direction").get<std::string>());
+  s.near_leg = kSides.find(json.at("near_leg").get<std::string>());
   s.slow_motion = json.at("slow_motion");
   s.notes = json.at("notes");
   if (json.contains("treadmill")) s.treadmill = json.at("treadmill").get<bool>();

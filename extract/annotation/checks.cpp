@@ -33,17 +33,11 @@ void add_stances(const Trajectory& trajectory, BodyPart part, double stride_fram
 
 }  // namespace
 
-std::vector<std::pair<BodyPart, BodyPart>> bones() {
-  using enum BodyPart;
-  return {{pelvis, knee_r}, {knee_r, ankle_r}, {ankle_r, toe_r},
-          {pelvis, knee_l}, {knee_l, ankle_l}, {ankle_l, toe_l}};
-}
-
 std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int number) {
   const auto frame = keypoints.frames.find(number);
   std::vector<BoneWarning> warnings;
   if (frame == keypoints.frames.end()) return warnings;
-  for (const auto& [from, to] : bones()) {
+  for (const auto& [from, to] : kBones) {
     const double here = length_px(frame->second, from, to);
     if (here == 0) continue;
     std::vector<double> lengths;
@@ -61,7 +55,6 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by) {
   std::optional<int> worst;
-  constexpr double kPriorOnlyConfidence = 0.3;  // confidence up to this comes from the prior alone
   double least = 1;
   for (const TrajectoryFrame& frame : prediction.frames) {
     const auto near = keypoints.frames.lower_bound(frame.frame - 2);
@@ -73,7 +66,7 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
       worst_part = std::min(worst_part, frame[part].confidence);
     }
     const double mean = sum / static_cast<double>(parts.size());
-    if (worst_part <= kPriorOnlyConfidence && mean < least) {
+    if (worst_part <= kPredictedConfidence && mean < least) {
       least = mean;
       worst = frame.frame;
     }

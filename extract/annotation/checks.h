@@ -20,9 +20,6 @@ struct BoneWarning {
 /// In a side view a thigh and a shank keep their length to 7 % in good clips.
 std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int frame);
 
-/// Leg parts that a line on the screen connects.
-std::vector<std::pair<BodyPart, BodyPart>> bones();
-
 /// The frame with the least certain parts, except within two frames of a click and in `passed_by`.
 /// Nothing if every part was followed in the picture.
 std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,

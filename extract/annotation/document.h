@@ -11,7 +11,8 @@ namespace stride::annotation {
 
 /// What is said about the whole clip: Keypoints without its clicks.
 struct ClipSettings {
-  std::string direction, near_leg;
+  std::optional<Facing> direction;
+  std::optional<Side> near_leg;
   double slow_motion = 1;
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;

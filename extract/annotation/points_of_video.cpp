@@ -75,7 +75,7 @@ LabelledClip points_of_video(const fs::path& video, const PointsOptions& options
     for (TrajectoryFrame& frame : mixed.marks.frames) swap_legs(frame);
   mixed.marks = corrected(mixed.marks, clicks.marks);
   mixed.points = "mixed";
-  if (!clicks.marks.direction.empty()) mixed.marks.direction = clicks.marks.direction;
+  if (clicks.marks.direction) mixed.marks.direction = clicks.marks.direction;
   mixed.marks.treadmill = clicks.marks.treadmill;
   mixed.marks.floor_roll_rad = clicks.marks.floor_roll_rad;
   return mixed;

@@ -41,7 +41,7 @@ void write_json(const Trajectory& trajectory, const fs::path& file) {
                   {"width_px", trajectory.width_px},
                   {"height_px", trajectory.height_px},
                   {"rate_hz", trajectory.rate_hz},
-                  {"direction", trajectory.direction},
+                  {"direction", name_or_empty(kFacings, trajectory.direction)},
                   {"frames", frames}};
   write_file_atomically(file, json.dump(1) + "\n");
 }
@@ -94,12 +94,6 @@ void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
   write_file_atomically(file, {out.data(), out.size()});
 }
 
-/// Index in BODY_25. It has no head; ours becomes the nose.
-int body25_index(BodyPart part) {
-  constexpr std::array<int, kBodyPartCount> kIndex{8, 10, 11, 22, 9, 13, 14, 19, 12, 0};
-  return kIndex[index(part)];
-}
-
 void write_openpose(const Trajectory& trajectory, const fs::path& folder) {
   const std::string stem =
       trajectory.video.empty() ? "stride" : fs::path(trajectory.video).stem().string();
@@ -107,7 +101,7 @@ void write_openpose(const Trajectory& trajectory, const fs::path& folder) {
     std::vector<double> keypoints(3 * 25, 0.0);
     for (const BodyPart part : kBodyParts) {
       if (!frame[part].present() || frame[part].confidence <= 0) continue;
-      double* xyc = &keypoints[3 * static_cast<std::size_t>(body25_index(part))];
+      double* xyc = &keypoints[3 * static_cast<std::size_t>(row(part).body_25)];
       xyc[0] = frame[part].p_px.x();
       xyc[1] = frame[part].p_px.y();
       xyc[2] = frame[part].confidence;

@@ -15,7 +15,7 @@ constexpr int kDetectorSide = 224, kLandmarkSide = 256;
 constexpr int kAnchors = 2254, kBoxNumbers = 12;
 constexpr int kMaps = 39, kMapSide = 64, kMapReach = 3;  // cells around the regressed place
 constexpr int kCentre = 33, kAbove = 34;                 // after the 33 of the body
-constexpr double kLeastPeak = 0.5;                       // of a heat map that is believed
+constexpr double kLeastPeak = 0.5;                       // of the heat map of a point
 constexpr double kLeastScore = 0.4;                      // of somebody; empty pictures reach 0.26
 
 double sigmoid(double x) { return 1 / (1 + std::exp(-x)); }

@@ -158,9 +158,7 @@ imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
                         p_px.y() <= image.height - 0.5;
     if (!inside) continue;
     const double peak = std::min(a.peak, b.peak);
-    Point& point = result[part];
-    point.p_px = p_px;
-    point.confidence = confidence_of(sd_legs, peak);
+    result[part] = {p_px, Source::detected, confidence_of(sd_legs, peak)};
   }
   return result;
 }

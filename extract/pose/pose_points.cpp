@@ -20,7 +20,7 @@ std::vector<Point> points_of(const PosePerson& person, double min_confidence) {
   std::vector<Point> points(person.keypoints.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     if (const Keypoint& keypoint = person.keypoints[k]; keypoint.confidence >= min_confidence)
-      points[k] = {keypoint.p_px, keypoint.confidence};
+      points[k] = {keypoint.p_px, Source::detected, keypoint.confidence};
   return points;
 }
 

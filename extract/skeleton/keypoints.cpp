@@ -16,7 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr std::string_view kFormat = "stride keypoints";
-constexpr std::array kStates{ClickState::seen, ClickState::estimated, ClickState::absent};
 
 /// The value of a key, or a sentence about what was expected there.
 template <typename T>
@@ -62,10 +61,11 @@ void add_others(Json& object, const std::string& other_json) {
 }
 
 ClickState click_state(const Json& click, const std::string& what) {
-  const auto text = value<std::string>(click, "state", what, "seen, estimated or absent");
-  for (const ClickState state : kStates)
-    if (text == name(state)) return state;
-  throw Error(fmt::format("{}: state = {}: must be seen, estimated or absent", what, text));
+  const std::string allowed = kClickStates.list(" or ");
+  const auto text = value<std::string>(click, "state", what, allowed.c_str());
+  const std::optional<ClickState> state = kClickStates.find(text);
+  require(state.has_value(), "{}: state = {}: must be {}", what, text, allowed);
+  return *state;
 }
 
 Click click_of(const Json& json, const std::string& what) {
@@ -112,7 +112,7 @@ Json parsed(const fs::path& file) {
 Json json_of(const Click& click) {
   Json json;
   if (click.state != ClickState::absent) json = {{"x", click.p_px.x()}, {"y", click.p_px.y()}};
-  json["state"] = name(click.state);
+  json["state"] = kClickStates[click.state];
   add_others(json, click.other_json);
   return json;
 }
@@ -127,14 +127,18 @@ Json json_of(int number, const ClickedFrame& frame) {
 
 Json json_of(const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); }
 
-bool is_side(const std::string& text) { return text.empty() || text == "right" || text == "left"; }
+/// One of `names`, or nothing where the text is empty or missing.
+template <typename Enum>
+std::optional<Enum> one_of(const Names<Enum>& names, const Json& json, const char* key,
+                           const std::string& file) {
+  const std::string allowed = names.list(" or "),
+                    text = value_or<std::string>(json, key, "", file, allowed.c_str());
+  const std::optional<Enum> found = names.find(text);
+  require(found || text.empty(), "{}: {} = {}: must be {}", file, key, text, allowed);
+  return found;
+}
 
 }  // namespace
-
-std::string_view name(ClickState state) {
-  constexpr std::array<std::string_view, 3> kNames{"seen", "estimated", "absent"};
-  return kNames[static_cast<std::size_t>(state)];
-}
 
 Keypoints load_keypoints(const fs::path& path) {
   const std::string file = path.string();
@@ -150,8 +154,8 @@ Keypoints load_keypoints(const fs::path& path) {
   k.video_sha256 = value<std::string>(json, "video_sha256", file, "64 hexadecimal digits");
   k.width_px = value<int>(json, "width_px", file, "a whole number of pixels");
   k.height_px = value<int>(json, "height_px", file, "a whole number of pixels");
-  k.direction = value_or<std::string>(json, "direction", "", file, "right or left");
-  k.near_leg = value_or<std::string>(json, "near_leg", "", file, "right or left");
+  k.direction = one_of(kFacings, json, "direction", file);
+  k.near_leg = one_of(kSides, json, "near_leg", file);
   k.slow_motion = value_or<double>(json, "slow_motion", 1, file, "a factor");
   if (json.contains("treadmill") && !json.at("treadmill").is_null())
     k.treadmill = value<bool>(json, "treadmill", file, "true or false");
@@ -182,8 +186,6 @@ Keypoints load_keypoints(const fs::path& path) {
 void check(const Keypoints& k, const std::string& what) {
   require(k.width_px > 0 && k.height_px > 0, "{}: frame size {}×{} px: must be positive", what,
           k.width_px, k.height_px);
-  require(is_side(k.direction), "{}: direction = {}: must be right or left", what, k.direction);
-  require(is_side(k.near_leg), "{}: near_leg = {}: must be right or left", what, k.near_leg);
   require(std::isfinite(k.slow_motion) && k.slow_motion > 0,
           "{}: slow_motion = {}: must be positive", what, k.slow_motion);
   if (k.trim)
@@ -225,8 +227,8 @@ std::string text_of(const Keypoints& k) {
             {"video_sha256", k.video_sha256},
             {"width_px", k.width_px},
             {"height_px", k.height_px},
-            {"direction", k.direction},
-            {"near_leg", k.near_leg},
+            {"direction", name_or_empty(kFacings, k.direction)},
+            {"near_leg", name_or_empty(kSides, k.near_leg)},
             {"slow_motion", k.slow_motion}};
   if (k.treadmill) json["treadmill"] = *k.treadmill;
   if (k.trim) json["trim"] = {{"first_frame", k.trim->first}, {"last_frame", k.trim->last}};

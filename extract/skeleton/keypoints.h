@@ -8,6 +8,7 @@
 #include <string>
 
 #include "extract/skeleton/body_part.h"
+#include "extract/skeleton/facing.h"
 
 namespace stride {
 
@@ -17,6 +18,9 @@ enum class ClickState {
   estimated,  // hidden; the position is an estimate
   absent      // hidden or outside the frame, position unknown
 };
+inline constexpr Names<ClickState> kClickStates({{ClickState::seen, "seen"},
+                                                 {ClickState::estimated, "estimated"},
+                                                 {ClickState::absent, "absent"}});
 
 struct Click {
   Eigen::Vector2d p_px = Eigen::Vector2d::Zero();  // as Point::p_px; meaningless if absent
@@ -52,9 +56,9 @@ struct Keypoints {
   std::string video;         // file name, without folder
   std::string video_sha256;  // of the file's bytes
   int width_px = 0, height_px = 0;
-  std::string direction;   // "right" or "left": the way the runner faces; empty: not said
-  std::string near_leg;    // "right" or "left": the leg nearer to the camera; empty: not said
-  double slow_motion = 1;  // seconds of video per second of the runner
+  std::optional<Facing> direction;  // none: not said
+  std::optional<Side> near_leg;     // the leg nearer to the camera; none: not said
+  double slow_motion = 1;           // seconds of video per second of the runner
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;  // only these frames are used
   std::optional<FloorLine> floor;
@@ -81,7 +85,5 @@ void check_belongs_to(const Keypoints& keypoints, const std::filesystem::path& v
 
 /// NAME.keypoints.json beside the video.
 std::filesystem::path keypoints_file_of(const std::filesystem::path& video);
-
-std::string_view name(ClickState state);
 
 }  // namespace stride

@@ -32,7 +32,10 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   trajectory.width_px = whole(table.meta_number("width_px"), file.string() + ": width_px");
   trajectory.height_px = whole(table.meta_number("height_px"), file.string() + ": height_px");
   trajectory.rate_hz = table.meta_number("rate_hz");
-  trajectory.direction = table.meta("direction");
+  const std::string direction = table.meta("direction");
+  trajectory.direction = kFacings.find(direction);
+  require(trajectory.direction || direction.empty(), "{}: direction = {}: must be {}",
+          file.string(), direction, kFacings.list(" or "));
   if (table.has_meta("floor_roll_rad"))
     trajectory.floor_roll_rad = table.meta_number("floor_roll_rad");
   require(std::isfinite(trajectory.rate_hz) && trajectory.rate_hz > 0,
@@ -68,6 +71,7 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
       Point& point = trajectory.frames[i][part];
       point.p_px = {row[x], row[y]};
       point.confidence = std::isnan(row[confidence]) ? 0 : row[confidence];
+      if (point.present()) point.source = source_of(point.confidence);
       require(std::isnan(row[x]) == std::isnan(row[y]),
               "{}: frame {}: {} has x without y or y without x", file.string(),
               trajectory.frames[i].frame, prefix);
@@ -86,7 +90,7 @@ Table table_of(const Trajectory& trajectory) {
   table.set_meta("width_px", fmt::format("{}", trajectory.width_px));
   table.set_meta("height_px", fmt::format("{}", trajectory.height_px));
   table.set_meta("rate_hz", fmt::format("{}", trajectory.rate_hz));
-  table.set_meta("direction", trajectory.direction);
+  table.set_meta("direction", std::string(name_or_empty(kFacings, trajectory.direction)));
   if (std::isfinite(trajectory.floor_roll_rad))
     table.set_meta("floor_roll_rad", fmt::format("{}", trajectory.floor_roll_rad));
   if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");

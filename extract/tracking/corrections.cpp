@@ -12,16 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The joint at the upper end of a part's limb, of each side; what both legs share is learned
-/// together.
-struct Limb {
-  std::array<BodyPart, 2> joint, above;
-};
-constexpr std::array kLimbs{
-    Limb{{BodyPart::knee_r, BodyPart::knee_l}, {BodyPart::pelvis, BodyPart::pelvis}},
-    Limb{{BodyPart::ankle_r, BodyPart::ankle_l}, {BodyPart::knee_r, BodyPart::knee_l}},
-    Limb{{BodyPart::toe_r, BodyPart::toe_l}, {BodyPart::ankle_r, BodyPart::ankle_l}}};
-
 constexpr double kClicksAsPrior = 1.5;  // that no offset is expected weighs as much as these
 constexpr double kReach_s = 0.04;       // over which the rest of a correction fades
 
@@ -40,16 +30,17 @@ std::optional<Eigen::Matrix2d> axes(const TrajectoryFrame& frame, BodyPart joint
   return axes;
 }
 
-/// Moves a joint on every frame by what the clicks say of it on average, in the limb's axes.
-void move_along_limb(const Limb& limb, const Trajectory& clicks, Trajectory& points) {
+/// Moves a joint of both legs on every frame by what the clicks say of it on average, in the axes
+/// of the limb above it.
+void move_along_limb(BodyPart right, const Trajectory& clicks, Trajectory& points) {
+  const std::array joints{right, mirrored(right)};
   Vector2d sum = Vector2d::Zero();
   double count = kClicksAsPrior;
   for (const TrajectoryFrame& clicked : clicks.frames) {
     const TrajectoryFrame* detected = frame_of(points, clicked.frame);
     if (detected == nullptr) continue;
-    for (int side = 0; side < 2; ++side) {
-      const BodyPart joint = limb.joint[side];
-      const auto to_px = axes(*detected, joint, limb.above[side]);
+    for (const BodyPart joint : joints) {
+      const auto to_px = axes(*detected, joint, row(joint).parent);
       if (!to_px || !clicked[joint].present()) continue;
       const Vector2d offset = to_px->inverse() * (clicked[joint].p_px - (*detected)[joint].p_px);
       if (offset.norm() > 0.5) continue;  // another leg, or nonsense
@@ -58,9 +49,9 @@ void move_along_limb(const Limb& limb, const Trajectory& clicks, Trajectory& poi
     }
   }
   for (TrajectoryFrame& frame : points.frames)
-    for (int side = 0; side < 2; ++side)
-      if (const auto to_px = axes(frame, limb.joint[side], limb.above[side]))
-        frame[limb.joint[side]].p_px += *to_px * sum / count;
+    for (const BodyPart joint : joints)
+      if (const auto to_px = axes(frame, joint, row(joint).parent))
+        frame[joint].p_px += *to_px * sum / count;
 }
 
 /// The rest of the corrections of a part: each fades with the distance in time.
@@ -96,7 +87,7 @@ void put(const Trajectory& clicks, Trajectory& points) {
       at->time_s = clicked.time_s;
     }
     for (const BodyPart part : kBodyParts)
-      if (clicked[part].present() || clicked[part].confidence > 0) (*at)[part] = clicked[part];
+      if (clicked[part].source != Source::unknown) (*at)[part] = clicked[part];
   }
 }
 
@@ -104,7 +95,8 @@ void put(const Trajectory& clicks, Trajectory& points) {
 
 Trajectory corrected(const Trajectory& detected, const Trajectory& clicks) {
   Trajectory points = detected;
-  for (const Limb& limb : kLimbs) move_along_limb(limb, clicks, points);
+  for (const Bone& bone : kBones)
+    if (row(bone.to).side == Side::right) move_along_limb(bone.to, clicks, points);
   for (const BodyPart part : kBodyParts) move_near_clicks(part, clicks, points);
   put(clicks, points);
   return points;

@@ -14,11 +14,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::array kJoints{std::array{BodyPart::knee_r, BodyPart::knee_l},
-                             std::array{BodyPart::ankle_r, BodyPart::ankle_l},
-                             std::array{BodyPart::toe_r, BodyPart::toe_l},
-                             std::array{BodyPart::hip_r, BodyPart::hip_l}};
+constexpr auto kJoints = [] {
+  std::array<std::array<BodyPart, 2>, kRightParts.size()> joints{};
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    joints[i] = {kRightParts[i], mirrored(kRightParts[i])};
+  return joints;
+}();
 constexpr std::size_t kKnee = 0, kAnkle = 1, kToe = 2;
+static_assert(kJoints[kKnee][0] == BodyPart::knee_r && kJoints[kAnkle][0] == BodyPart::ankle_r &&
+              kJoints[kToe][0] == BodyPart::toe_r);
 
 constexpr int kMemory = 3;            // earlier frames from which a joint's path is extrapolated
 constexpr double kChangeCost = 2;     // of a swap that begins or ends
@@ -277,8 +281,9 @@ Legs renamed(Legs legs, const std::vector<bool>& swapped) {
   return legs;
 }
 
-int near_side(const std::string& direction) {
-  return direction == "right" ? 0 : direction == "left" ? 1 : -1;
+/// 0 right, 1 left, −1 not known.
+int near_side(std::optional<Facing> direction) {
+  return direction ? static_cast<int>(*direction) : -1;
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kClicked = 0.99;  // marks of at least this confidence are a person's
 constexpr double kStudentDof = 3;  // degrees of freedom of the errors of flow and detectors
 constexpr double kLeastStepVariance = 0.1;  // px², of a step of the flow
 constexpr double kMostOfMarks = 0.75;       // of what the flow misses, by the noise of the marks
@@ -18,8 +17,7 @@ constexpr double kFramesAlike = 10;         // of a prediction: their errors are
 constexpr double kLeastPredictionVariance = 0.02;  // px²
 
 double noise_px(const gaussian_process::GaitPrior& prior, BodyPart part) {
-  const bool trunk = part == BodyPart::pelvis || part == BodyPart::head;
-  return trunk ? prior.trunk.noise_px : prior.legs.noise_px;
+  return !row(part).side ? prior.trunk.noise_px : prior.legs.noise_px;
 }
 
 /// The inlier displacements between two labelled points, from both sides.
@@ -72,7 +70,7 @@ std::vector<Measurement> measurements_of(const Trajectory& marks) {
     for (const BodyPart part : kBodyParts)
       if (frame[part].present())
         measurements.push_back({part, frame.frame, frame[part].p_px, Vector2d::Ones(),
-                                frame[part].confidence < kClicked});
+                                frame[part].source != Source::clicked});
   return measurements;
 }
 

@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPriorOnly = 0.3;  // largest confidence of a point from the prior alone
 constexpr double kKeptNoise_px = 0.02;
 constexpr int kReweightings = 3;
 constexpr int kLooks = 5;          // passes of optical flow, until the period has settled
@@ -59,7 +58,7 @@ std::vector<bool> absent_frames(const Trajectory& marks, BodyPart part) {
   const TrajectoryFrame* before = nullptr;
   for (const TrajectoryFrame& mark : marks.frames) {
     const Point& point = mark[part];
-    if (!point.present() && point.confidence == 0) continue;  // nothing was said
+    if (point.source == Source::unknown) continue;
     const bool was_absent = before == nullptr || !(*before)[part].present();
     fill(before == nullptr ? first : before->frame + 1, mark.frame - 1,
          was_absent && !point.present());
@@ -92,23 +91,29 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks,
       const gaussian_process::Estimate& estimate = estimates[i][index(part)];
       if (!estimate.p_px.allFinite() || absent[index(part)][i]) continue;
       const double relative = 30 * std::sqrt(estimate.variance_px2.mean()) / size_px;
-      frames[i][part] = {estimate.p_px, kPriorOnly / (1 + relative * relative)};
+      frames[i][part] = {estimate.p_px, Source::predicted,
+                         kPredictedConfidence / (1 + relative * relative)};
     }
   }
   for (const Measurement& r : measurements) {
     if (!r.inlier) continue;
     const double led_back = std::exp(-0.5 * r.round_trip_px * r.round_trip_px);
-    const double confidence = kPriorOnly + (1 - kPriorOnly) * std::min(1.0, r.weight) * led_back;
+    const double confidence =
+        kPredictedConfidence + (1 - kPredictedConfidence) * std::min(1.0, r.weight) * led_back;
     for (const int frame : {r.since_frame, r.frame}) {
       Point& point = frames[static_cast<std::size_t>(frame - first)][r.part];
-      if (point.present()) point.confidence = std::max(point.confidence, confidence);
+      if (!point.present()) continue;
+      point.source = Source::tracked;
+      point.confidence = std::max(point.confidence, confidence);
     }
   }
   for (const TrajectoryFrame& mark : marks.frames)
     for (const BodyPart part : kBodyParts)
-      if (mark[part].present())
-        frames[static_cast<std::size_t>(mark.frame - first)][part].confidence =
-            mark[part].confidence;
+      if (mark[part].present()) {
+        Point& point = frames[static_cast<std::size_t>(mark.frame - first)][part];
+        point.source = mark[part].source;
+        point.confidence = mark[part].confidence;
+      }
   return frames;
 }
 
@@ -137,7 +142,7 @@ struct Followed {
   std::vector<Measurement> measurements, predicted;  // marks and flow; a prediction by others
   std::vector<FlowStretch> stretches;
 
-  /// Share of the unmarked points where the flow was believed.
+  /// Share of the unmarked points where the flow is an inlier.
   double inlier() const {
     std::size_t steps = 0, inliers = 0;
     for (const FlowStretch& s : stretches) steps += static_cast<std::size_t>(s.last - s.first);
@@ -180,10 +185,10 @@ Followed followed(gaussian_process::GaitPrior prior, const Trajectory& marks,
   return result;
 }
 
-/// Where the clicks leave two periods, that one under which the picture is believed more often.
+/// Where the clicks leave two periods, the one under which the flow has more inliers.
 Followed best_followed(const Trajectory& marks, const video::DecodedClip& clip,
                        const TrackOptions& options) {
-  constexpr double kSurely = 0.6;  // believed: other periods need not be tried
+  constexpr double kSurely = 0.6;  // share of inliers from which other periods need not be tried
   constexpr double kClearly = 0.1;
   const auto first = clip.times_s.begin() + marks.frames.front().frame,
              last = clip.times_s.begin() + marks.frames.back().frame;
@@ -266,15 +271,24 @@ Trajectory marks_of(const Keypoints& keypoints) {
       const auto& click = clicked[part];
       if (!click) continue;
       any = true;
-      if (clicked.placed(part)) frame[part].p_px = click->p_px;
-      frame[part].confidence = click->state == ClickState::estimated ? 0.5 : 1;
+      switch (click->state) {
+        case ClickState::seen:
+          frame[part] = {click->p_px, Source::clicked, 1};
+          break;
+        case ClickState::estimated:
+          frame[part] = {click->p_px, Source::hidden, kHiddenConfidence};
+          break;
+        case ClickState::absent:
+          frame[part].source = Source::absent;
+          break;
+      }
     }
     if (any) marks.frames.push_back(frame);
   }
   return marks;
 }
 
-std::string facing(const Trajectory& points) {
+std::optional<Facing> facing(const Trajectory& points) {
   double forward = 0;  // of the knees in front of the line from pelvis to ankle
   for (const TrajectoryFrame& frame : points.frames)
     for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
@@ -284,7 +298,8 @@ std::string facing(const Trajectory& points) {
       const double bend = up.x() * shank.y() - up.y() * shank.x();
       if (std::isfinite(bend)) forward += bend;
     }
-  return forward > 0 ? "right" : forward < 0 ? "left" : "";
+  if (forward == 0) return std::nullopt;
+  return forward > 0 ? Facing::right : Facing::left;
 }
 
 }  // namespace stride::tracking

@@ -31,22 +31,20 @@ struct Tracked {
 
 /// Tracks every part in every frame from the first labelled frame to the last.
 ///
-/// `marks` has the labelled frames only. Confidence of a point: 1 clicked (the flow starts from
-/// it), 0.5 labelled as hidden, any other a detector's (less weight, outliers are rejected). A
-/// point without a position but with a confidence means that the part is absent. Throws Error if
-/// there are no points, no pelvis, or a point beyond the last frame.
+/// `marks` has the labelled frames only. Where a point is not clicked it has less weight, the less
+/// the lower its confidence, and outliers are rejected. Throws Error if there are no points, no
+/// pelvis, or a point beyond the last frame.
 ///
-/// Confidence of the result: 1 for a clicked point; above 0.3 where the flow was an inlier,
-/// increasing with its forward–backward consistency and its agreement with the rest; at most 0.3
-/// where only the prior speaks, decreasing with its uncertainty.
+/// Confidence of the result: 1 for a clicked point; above kPredictedConfidence where the flow was
+/// an inlier, increasing with its forward–backward consistency and its agreement with the rest; at
+/// most that where only the prior speaks, decreasing with its uncertainty.
 Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
               const TrackOptions& options = {});
 
 /// The clicks inside the trim range.
 Trajectory marks_of(const Keypoints& keypoints);
 
-/// "right" or "left": the direction in which the runner faces, because knees bend forward; empty if
-/// no leg was seen.
-std::string facing(const Trajectory& points);
+/// The direction in which the runner faces, because knees bend forward; nothing if no leg was seen.
+std::optional<Facing> facing(const Trajectory& points);
 
 }  // namespace stride::tracking

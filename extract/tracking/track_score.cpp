@@ -38,7 +38,7 @@ Trajectory load_truth(const std::filesystem::path& file, const video::VideoTimes
     const std::size_t x = table.column(fmt::format("{}_x", name(part))),
                       y = table.column(fmt::format("{}_y", name(part)));
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-      truth.frames[i][part] = {{table.rows[i][x], table.rows[i][y]}, 1};
+      truth.frames[i][part] = {{table.rows[i][x], table.rows[i][y]}, Source::clicked, 1};
   }
   return truth;
 }

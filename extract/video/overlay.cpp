@@ -84,10 +84,9 @@ class Brush {
 double opacity(double confidence) { return 0.3 + 0.7 * std::clamp(confidence, 0.0, 1.0); }
 
 void draw_joint(Brush& brush, const Point& point, const cv::Scalar& colour, double radius) {
-  if (point.confidence <= 0.3)
-    return brush.ring(point.p_px, colour, radius, opacity(point.confidence));
+  if (!point.seen()) return brush.ring(point.p_px, colour, radius, opacity(point.confidence));
   brush.dot(point.p_px, colour, radius, opacity(point.confidence));
-  if (point.confidence == 1) brush.dot(point.p_px, kTrunk, 0.4 * radius, 1);
+  if (point.source == Source::clicked) brush.dot(point.p_px, kTrunk, 0.4 * radius, 1);
 }
 
 struct Leg {
@@ -187,7 +186,7 @@ void draw_points(cv::Mat& image, const Trajectory& trajectory, std::size_t i,
 
 OverlayStyle overlay_style(const Trajectory& trajectory) {
   OverlayStyle style;
-  style.near_is_right = trajectory.direction != "left";
+  style.near_is_right = trajectory.direction != Facing::left;
   style.scale = std::clamp(trajectory.height_px / 360.0, 0.7, 3.0);
   return style;
 }

@@ -113,7 +113,7 @@ class Clip {
   }
 
   CalibratedTrajectory calibrated(Trajectory trajectory) {
-    if (!clip_.direction.empty()) trajectory.direction = clip_.direction;
+    if (clip_.direction) trajectory.direction = clip_.direction;
     result_.frames = static_cast<int>(trajectory.frames.size());
     const Calibration calibration = calibrate(trajectory, model_, fit::fit_options(clip_.size));
     std::string report = report::report_text(trajectory, model_, calibration);
@@ -158,12 +158,12 @@ class Clip {
   /// A hash of everything that the result depends on.
   std::string fingerprint() const {
     const KeyframeOptions& k = clip_.keyframes;
-    std::string all =
-        fmt::format("2 {} {} {} {} {} {} {} {} {} {} {} {} {} {}", sha256_of_file(input_),
-                    sha256_of_file(options_.model), clip_.size.height_m.value_or(0),
-                    clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
-                    clip_.direction, clip_.slow_motion, clip_.force, k.count, k.foot, k.symmetric,
-                    kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
+    std::string all = fmt::format(
+        "2 {} {} {} {} {} {} {} {} {} {} {} {} {} {}", sha256_of_file(input_),
+        sha256_of_file(options_.model), clip_.size.height_m.value_or(0),
+        clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
+        name_or_empty(kFacings, clip_.direction), clip_.slow_motion, clip_.force, k.count, k.foot,
+        k.symmetric, kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
     all += fmt::format(" {} {}", k.weight, options_.network);
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));

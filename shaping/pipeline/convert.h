@@ -14,7 +14,7 @@ namespace stride::pipeline {
 /// Options of a clip.
 struct ClipOptions {
   fit::RunnerSize size;
-  std::string direction;   // "right", "left"; empty: as the keypoints say
+  std::optional<Facing> direction;  // none: as the keypoints say
   double slow_motion = 0;  // seconds of video a second of the runner; 0: as the keypoints say
   bool force = false;      // convert a refused clip if there is a fit
   KeyframeOptions keyframes;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "extract/commands/direction_option.h"
 #include "extract/io/error.h"
 #include "extract/io/option_range.h"
 #include "extract/parallel/ranks.h"
@@ -77,8 +78,7 @@ void add_convert_command(CLI::App& app) {
   convert->add_option("--scale", clip.size.metres_per_pixel, "metres per pixel");
   convert->add_option("--slow-motion", clip.slow_motion, "seconds of video a second of the runner")
       ->check(in_range(0.05, 100));
-  convert->add_option("--direction", clip.direction, "right or left: the way the runner faces")
-      ->check(CLI::IsMember({"right", "left"}));
+  add_direction_option(*convert, clip.direction);
   convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even")
       ->check(in_range(2, 200));
   convert->add_option("--foot", clip.keyframes.foot, "ankle or toe: the foot of the potential")

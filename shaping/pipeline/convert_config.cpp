@@ -56,7 +56,7 @@ void apply(const Setting& setting, ClipOptions& clip) {
   else if (key == "scale")
     clip.size = {.height_m = {}, .leg_m = {}, .metres_per_pixel = setting.number()};
   else if (key == "direction")
-    clip.direction = setting.one_of({"right", "left"});
+    clip.direction = kFacings.find(setting.one_of({"right", "left"}));
   else if (key == "slow-motion")
     clip.slow_motion = setting.number_in(0.05, 100);
   else if (key == "force")

@@ -57,7 +57,7 @@ std::string about_keypoints(const Keypoints& k) {
   for (const auto& [number, frame] : k.frames)
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].has_value() ? 1 : 0;
   return fmt::format("clicks on {}, {} x {}, the runner faces {}\n{} frames, {} to {}\n{}", k.video,
-                     k.width_px, k.height_px, k.direction.empty() ? "(not said)" : k.direction,
+                     k.width_px, k.height_px, k.direction ? kFacings[*k.direction] : "(not said)",
                      k.frames.size(), k.frames.empty() ? 0 : k.frames.begin()->first,
                      k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen));
 }
@@ -69,8 +69,8 @@ std::string about_trajectory(const Trajectory& t) {
   return fmt::format(
       "trajectory of {} in pixels, {} x {} at {:.2f} Hz, the runner faces {}\n{} "
       "frames; marks:\n{}",
-      t.video, t.width_px, t.height_px, t.rate_hz, t.direction.empty() ? "(not said)" : t.direction,
-      t.frames.size(), counts(seen));
+      t.video, t.width_px, t.height_px, t.rate_hz,
+      t.direction ? kFacings[*t.direction] : "(not said)", t.frames.size(), counts(seen));
 }
 
 std::string about_calibrated(const CalibratedTrajectory& c) {

@@ -39,10 +39,11 @@ Keypoints clicked(const video::VideoInfo& info) {
   keypoints.video_sha256 = "00";
   keypoints.width_px = info.width_px;
   keypoints.height_px = info.height_px;
-  keypoints.direction = keypoints.near_leg = "right";
+  keypoints.direction = Facing::right;
+  keypoints.near_leg = Side::right;
   for (int frame = 0; frame < kFrames - 5; frame += kStride / 8) {
     keypoints.frames[frame].time_s = frame / 30.0;
-    for (const BodyPart part : annotation::asking_order("right", false, false))
+    for (const BodyPart part : annotation::asking_order(Side::right, false, false))
       keypoints.frames[frame][part] = Click{place(frame, part), ClickState::seen, ""};
   }
   return keypoints;

@@ -56,7 +56,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
   trajectory.width_px = 640;
   trajectory.height_px = 360;
   trajectory.rate_hz = clip.rate_hz;
-  trajectory.direction = clip.to_left ? "left" : "right";
+  trajectory.direction = clip.to_left ? Facing::left : Facing::right;
   const int frames = static_cast<int>(clip.duration_s * clip.rate_hz) + 1;
   const double middle_s = 0.5 * (frames - 1) / clip.rate_hz;
   for (int i = 0; i < frames; ++i) {
@@ -78,7 +78,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
         const double angle = 2 * std::numbers::pi * uniform(random);
         p += (30 + 90 * uniform(random)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       }
-      frame[part] = {{320 + (clip.to_left ? -p.x() : p.x()), 180 - p.y()}, 1};
+      frame[part] = {{320 + (clip.to_left ? -p.x() : p.x()), 180 - p.y()}, Source::clicked, 1};
     }
   }
   return trajectory;

@@ -22,7 +22,9 @@ inline Trajectory detected(const std::string& truth_file) {
     for (const BodyPart part : kBodyParts) {
       const std::string prefix(name(part));
       if (part != BodyPart::head)
-        frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]}, 0.9};
+        frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]},
+                       Source::detected,
+                       0.9};
     }
   }
   return truth;

@@ -19,7 +19,7 @@ TEST(Truth, BesideEachClipIsWhatTheProgramComputes) {
     for (std::size_t i = 0; i < file.frames.size(); ++i)
       for (const BodyPart part : kBodyParts)
         EXPECT_LT((file.frames[i][part].p_px - fresh.frames[i][part].p_px).norm(), 1e-3);
-    EXPECT_EQ(file.direction, clip.to_left ? "left" : "right");
+    EXPECT_EQ(file.direction, clip.to_left ? Facing::left : Facing::right);
 
     const Table file_m = load_table(committed(clip, ".truth_m.csv"), "truth", 1), m = truth_m(clip);
     ASSERT_EQ(file_m.columns, m.columns);

@@ -39,7 +39,7 @@ TEST(Variant, FromTheOtherSideIsTheSameRunTheOtherWay) {
   const Clip clip = stride::videos::clip("human"), other = from_other_side(clip);
   EXPECT_EQ(truth_m(clip).rows, truth_m(other).rows);
   const Trajectory truth = truth_px(clip), mirrored = truth_px(other);
-  EXPECT_EQ(mirrored.direction, "left");
+  EXPECT_EQ(mirrored.direction, Facing::left);
   const auto ahead = [](const TrajectoryFrame& frame) {
     return frame[BodyPart::toe_r].p_px.x() - frame[BodyPart::ankle_r].p_px.x();
   };

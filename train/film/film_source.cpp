@@ -52,7 +52,7 @@ SourceStride read_source_stride(const std::filesystem::path& file, double start_
     cv::Mat image = frame.image;
     if (trajectory) {
       image = image(window(image, pelvis_x_px, aspect)).clone();
-      if (trajectory->direction == "left") cv::flip(image, image, 1);
+      if (trajectory->direction == Facing::left) cv::flip(image, image, 1);
     }
     stride.phase.push_back(phase);
     stride.frames.push_back(image);

@@ -36,17 +36,17 @@ struct Clip {
 };
 
 /// A mark that the fit does not believe.
-struct Disbelieved {
+struct Outlier {
   fit::Mark mark;
   double off_px = 0;
 };
 
-std::vector<Disbelieved> disbelieved(const Calibration& c) {
-  std::vector<Disbelieved> marks;
+std::vector<Outlier> outliers(const Calibration& c) {
+  std::vector<Outlier> marks;
   for (std::size_t i = 0; i < c.fit.marks.size(); ++i)
     if (c.fit.marks[i].outlier)
       marks.push_back({c.observations.points[i], c.fit.marks[i].r_px.norm()});
-  std::ranges::sort(marks, std::ranges::greater{}, &Disbelieved::off_px);
+  std::ranges::sort(marks, std::ranges::greater{}, &Outlier::off_px);
   return marks;
 }
 
@@ -139,10 +139,10 @@ std::string speed_section(const Clip& clip) {
          strip(clip, {stance.front(), *last});
 }
 
-std::string outlier_section(const Clip& clip, const std::vector<Disbelieved>& marks) {
+std::string outlier_section(const Clip& clip, const std::vector<Outlier>& marks) {
   const Calibration& c = clip.calibration;
   std::string html = fmt::format(
-      "<h2>Points that were not believed</h2>\n<p>{} of {} marks lie too far from the fitted "
+      "<h2>Outliers</h2>\n<p>{} of {} marks lie too far from the fitted "
       "stride "
       "and do not count{}</p>\n",
       marks.size(), c.fit.marks.size(),
@@ -181,10 +181,10 @@ std::string unseen_section(const Trajectory& trajectory) {
     int clicked = 0, seen = 0, predicted = 0, absent = 0;
     for (const TrajectoryFrame& frame : trajectory.frames) {
       const Point& point = frame[part];
-      ++(!point.present()         ? absent
-         : point.confidence >= 1  ? clicked
-         : point.confidence > 0.3 ? seen
-                                  : predicted);
+      ++(!point.present()                  ? absent
+         : point.source == Source::clicked ? clicked
+         : point.seen()                    ? seen
+                                           : predicted);
     }
     if (clicked + seen + predicted > 0)
       rows.push_back({std::string(name(part)), fmt::format("{}", clicked), fmt::format("{}", seen),
@@ -230,7 +230,7 @@ std::string clip_page(const fs::path& trajectory, const fs::path& video) {
   body += film(data_uri(scratch.folder / "film.mp4"),
                c.fit.ok ? "The clip with the fitted runner." : "The clip with the tracked points.");
   if (c.fit.ok) {
-    const std::vector<Disbelieved> marks = disbelieved(c);
+    const std::vector<Outlier> marks = outliers(c);
     std::set<int> wanted;
     const auto want = [&](const std::vector<int>& indices) {
       for (const int i : indices)

@@ -6,7 +6,7 @@
 namespace stride::page {
 
 /// A page about a clip: verdict, the fit's figures and picture, the film with the fitted legs, the
-/// frames behind period and speed, and the marks that were not believed. `trajectory` is
+/// frames behind period and speed, and the outliers among the marks. `trajectory` is
 /// NAME.trajectory.csv; `video` (or empty: beside it) must be the one that was tracked. Throws
 /// Error where it is not there.
 std::string clip_page(const std::filesystem::path& trajectory, const std::filesystem::path& video);

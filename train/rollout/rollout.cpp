@@ -8,37 +8,6 @@
 #include "train/simulation/engine/runner_layout.h"
 
 namespace stride::rollout {
-namespace {
-
-/// The body whose origin is a part of the runner.
-int body_of(BodyPart part, const osim::Model& model) {
-  switch (part) {
-    case BodyPart::pelvis:
-      return model.body("pelvis");
-    case BodyPart::knee_r:
-      return model.body("tibia_r");
-    case BodyPart::knee_l:
-      return model.body("tibia_l");
-    case BodyPart::ankle_r:
-      return model.body("talus_r");
-    case BodyPart::ankle_l:
-      return model.body("talus_l");
-    case BodyPart::toe_r:
-      return model.body("toes_r");
-    case BodyPart::toe_l:
-      return model.body("toes_l");
-    case BodyPart::hip_r:
-      return model.body("femur_r");
-    case BodyPart::hip_l:
-      return model.body("femur_l");
-    case BodyPart::head:
-      return model.body("head");
-  }
-  return -1;
-}
-
-}  // namespace
-
 template <typename Scalar>
 Rollout record_episode(const network::Policy<Scalar>& policy,
                        environment::RunnerEnvironment& environment, environment::Observer& observer,
@@ -83,7 +52,8 @@ CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& mo
     const simulation::PlanarVector origin = frame.kinematics.bodies[pelvis].position;
     for (const BodyPart part : kBodyParts) {
       const simulation::PlanarVector p =
-          frame.kinematics.bodies[static_cast<std::size_t>(body_of(part, model))].position;
+          frame.kinematics.bodies[static_cast<std::size_t>(model.body(row(part).osim_body))]
+              .position;
       sample.p_m[static_cast<std::size_t>(index(part))] = {p.x - origin.x, p.y - origin.y};
     }
     run.samples.push_back(sample);

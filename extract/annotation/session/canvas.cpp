@@ -76,7 +76,7 @@ void AnnotationCanvas::draw_ghosts() {
   if (const TrajectoryFrame* ghost = s_.predicted(before);
       ghost && pelvis && (*ghost)[BodyPart::pelvis].present()) {
     const Eigen::Vector2d move = *pelvis - (*ghost)[BodyPart::pelvis].p_px;
-    for (const auto& [a, b] : bones())
+    for (const auto& [a, b] : kBones)
       if ((*ghost)[a].present() && (*ghost)[b].present())
         draw_dashes(canvas_, s_.view_.to_canvas((*ghost)[a].p_px + move),
                     s_.view_.to_canvas((*ghost)[b].p_px + move), colour(b) * 0.75);
@@ -89,7 +89,7 @@ void AnnotationCanvas::draw_ghosts() {
     draw_ring(canvas_, p, 7, colour(part));
     draw_ring(canvas_, p, 3, confidence_colour(point.confidence), 2);
   }
-  for (const auto& [a, b] : bones())
+  for (const auto& [a, b] : kBones)
     if ((*now)[a].present() && (*now)[b].present() && !(is_placed(a) && is_placed(b)))
       draw_line(canvas_, s_.view_.to_canvas((*now)[a].p_px), s_.view_.to_canvas((*now)[b].p_px),
                 colour(b) * 0.7);
@@ -106,7 +106,7 @@ void AnnotationCanvas::draw_clicks() {
     return p;
   };
   const auto warnings = bone_warnings(s_.keypoints(), s_.frame_);
-  for (const auto& [a, b] : bones()) {
+  for (const auto& [a, b] : kBones) {
     if (!here->placed(a) || !here->placed(b)) continue;
     const bool wrong = std::ranges::any_of(
         warnings, [&](const BoneWarning& w) { return w.from == a && w.to == b; });

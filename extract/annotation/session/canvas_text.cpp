@@ -59,7 +59,7 @@ void AnnotationCanvas::draw_head_line() {
   canvas_({0, 0, size.width, kHeadLine}).setTo(colour::kPanel);
   const Keypoints& k = s_.keypoints();
   std::string left = k.video;
-  if (!k.direction.empty()) left += fmt::format("   runs to the {}", k.direction);
+  if (k.direction) left += fmt::format("   runs to the {}", kFacings[*k.direction]);
   if (k.slow_motion != 1) left += fmt::format("   slow motion {}x", k.slow_motion);
   if (k.treadmill.value_or(false)) left += "   treadmill";
   if (k.trim) left += fmt::format("   trim {}-{}", k.trim->first, k.trim->last);
@@ -94,7 +94,7 @@ std::string AnnotationCanvas::what_a_click_does() const {
       return fmt::format(
           "Which of the runner's legs is nearer to the camera?  Enter: the {} one   "
           "l: left   r: right",
-          s_.keypoints().direction);
+          name_or_empty(kFacings, s_.keypoints().direction));
     case Mode::floor_from:
       return "Click one end of a line on the floor along the way of running   Esc: not now";
     case Mode::floor_to:

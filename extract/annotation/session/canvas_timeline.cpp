@@ -127,7 +127,7 @@ void AnnotationCanvas::draw_ankles(const cv::Rect& lane) {
     return Eigen::Vector2d(x_of(frame),
                            lane.y + lane.height / 2.0 - x / largest * (lane.height / 2.0 - 4));
   };
-  const bool right_is_near = s_.near_leg() != "left";
+  const bool right_is_near = s_.near_leg() == Side::right;
   const auto curve = [&](double Sample::*x, const cv::Scalar& c) {
     const Sample* last = nullptr;
     for (const Sample& sample : samples) {

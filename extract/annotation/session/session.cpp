@@ -26,9 +26,9 @@ AnnotationSession::AnnotationSession(AnnotationJournal& journal, video::FrameSto
   view_.area = AnnotationCanvas::image_area(options.canvas_px);
   view_.fit();
   const Keypoints& k = keypoints();
-  if (k.direction.empty()) {
+  if (!k.direction) {
     mode_ = Mode::ask_direction;
-  } else if (k.near_leg.empty()) {
+  } else if (!k.near_leg) {
     mode_ = Mode::ask_near_leg;
   }
   for (const auto& [number, clicked] : k.frames)
@@ -48,9 +48,7 @@ int AnnotationSession::frame_count() const {
                             : std::max(frames_.count(), frames_.info().announced_frames);
 }
 
-std::string AnnotationSession::near_leg() const {
-  return keypoints().near_leg.empty() ? "right" : keypoints().near_leg;
-}
+Side AnnotationSession::near_leg() const { return keypoints().near_leg.value_or(Side::right); }
 
 std::vector<BodyPart> AnnotationSession::order() const {
   return asking_order(near_leg(), options_.hips, options_.head);

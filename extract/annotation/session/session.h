@@ -135,7 +135,7 @@ class AnnotationSession {
   std::vector<BodyPart> order() const;
   double phase_step() const;
   std::optional<Eigen::Vector2d> pelvis_px(int frame) const;  // clicked or predicted
-  std::string near_leg() const;
+  Side near_leg() const;
 
   AnnotationJournal& journal_;
   video::FrameStore& frames_;

@@ -20,7 +20,7 @@ void AnnotationSession::edit_settings(const std::string& what, const ClipSetting
 void AnnotationSession::place(BodyPart part, const Eigen::Vector2d& p_px, ClickState state) {
   require(frame_ < frames_.count(), "frame {} is still being decoded; wait a moment", frame_);
   edit({fmt::format("{} on frame {}{}", spoken(part, near_leg()), frame_,
-                    state == ClickState::seen ? "" : fmt::format(": {}", name(state))),
+                    state == ClickState::seen ? "" : fmt::format(": {}", kClickStates[state])),
         {{frame_, frames_.video_time_s(frame_), part, Click{p_px, state, ""}}},
         {}});
   last_ = part;

@@ -39,15 +39,16 @@ void AnnotationSession::answer(int key) {
   const bool right = key == 'r' || key == key::kRight, left = key == 'l' || key == key::kLeft;
   if (mode_ == Mode::ask_direction) {
     if (!right && !left) return;
-    settings.direction = right ? "right" : "left";
+    settings.direction = right ? Facing::right : Facing::left;
     // A runner to the right shows the right side to the camera.
     mode_ = Mode::ask_near_leg;
-    return edit_settings(fmt::format("runs to the {}", settings.direction), settings);
+    return edit_settings(fmt::format("runs to the {}", kFacings[*settings.direction]), settings);
   }
   if (!right && !left && key != key::kEnter) return;
-  settings.near_leg = key == key::kEnter ? settings.direction : right ? "right" : "left";
+  const bool nearer = key == key::kEnter ? settings.direction != Facing::left : right;
+  settings.near_leg = nearer ? Side::right : Side::left;
   mode_ = Mode::click;
-  edit_settings(fmt::format("the {} leg is near", settings.near_leg), settings);
+  edit_settings(fmt::format("the {} leg is near", kSides[*settings.near_leg]), settings);
   ask_first_missing();
 }
 

@@ -34,7 +34,8 @@ std::vector<Point> points_of(const JsonValue& keypoints, bool annotated) {
   std::vector<Point> points(numbers.size() / 3);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double* xys = &numbers[3 * k];
-    if (xys[2] > 0) points[k] = {{xys[0], xys[1]}, annotated ? xys[2] / 2 : xys[2]};
+    if (xys[2] > 0)
+      points[k] = {{xys[0], xys[1]}, Source::detected, annotated ? xys[2] / 2 : xys[2]};
   }
   return points;
 }

@@ -61,7 +61,8 @@ class Reader {
       const auto y = cell_number(text.substr(std::min(comma + 1, text.size())));
       require(x && y && *x == *x && *y == *y, "{}:{}: points = '{}': expected one point \"x,y\"",
               file_, line_of(node), text);
-      mark.point = {{*x, *y}, node.attribute("occluded").as_bool(false) ? 0.5 : 1.0};
+      mark.point = {
+          {*x, *y}, Source::detected, node.attribute("occluded").as_bool(false) ? 0.5 : 1.0};
     }
     marks_.push_back(mark);
   }

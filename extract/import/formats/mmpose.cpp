@@ -43,7 +43,7 @@ ImportedFile read_mmpose(std::string_view text, const std::string& file,
       for (std::size_t j = 0; j < points.size(); ++j) {
         const std::vector<double> xy = keypoints[j].numbers();
         if (xy.size() < 2) keypoints[j].fail("two coordinates");
-        if (scores[j] > 0) points[j] = {{xy[0], xy[1]}, scores[j]};
+        if (scores[j] > 0) points[j] = {{xy[0], xy[1]}, Source::detected, scores[j]};
       }
       const LabelMap map(labels_of(root, keypoints), options.labels, file);
       content.people.push_back({frame, "", map.parts(points)});

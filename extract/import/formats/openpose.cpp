@@ -21,7 +21,8 @@ ImportedFile read_openpose(std::string_view text, const std::string& file, int f
     std::vector<Point> points(labels.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double* xyc = &numbers[3 * k];
-      if (xyc[2] > 0 && (xyc[0] != 0 || xyc[1] != 0)) points[k] = {{xyc[0], xyc[1]}, xyc[2]};
+      if (xyc[2] > 0 && (xyc[0] != 0 || xyc[1] != 0))
+        points[k] = {{xyc[0], xyc[1]}, Source::detected, xyc[2]};
     }
     DetectedPerson& person = content.people.emplace_back();
     person.frame = frame;

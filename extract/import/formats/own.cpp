@@ -80,7 +80,7 @@ ImportedFile read_own_json(std::string_view text, const std::string& file) {
       if (part == kBodyParts.end()) points[label].fail("a body part of ours by its name");
       const std::vector<double> numbers = points[label].numbers();
       if (numbers.size() != 3) points[label].fail("[x, y, confidence]");
-      person.points[index(*part)] = {{numbers[0], numbers[1]}, numbers[2]};
+      person.points[index(*part)] = {{numbers[0], numbers[1]}, Source::detected, numbers[2]};
     }
     content.people.push_back(person);
   }

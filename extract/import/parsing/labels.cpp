@@ -28,31 +28,11 @@ bool is_sided(std::string_view letters, std::string_view noun, bool right) {
   return false;
 }
 
-bool is_one_of(std::string_view letters, std::initializer_list<std::string_view> names) {
-  return std::ranges::find(names, letters) != names.end();
-}
-
-bool is_sided_part(std::string_view letters, BodyPart part) {
-  const auto is_any = [&](bool right, std::initializer_list<std::string_view> nouns) {
-    return std::ranges::any_of(nouns, [&](auto noun) { return is_sided(letters, noun, right); });
-  };
-  switch (part) {
-    case BodyPart::hip_r:
-    case BodyPart::hip_l:
-      return is_any(part == BodyPart::hip_r, {"hip", "hipjoint"});
-    case BodyPart::knee_r:
-    case BodyPart::knee_l:
-      return is_any(part == BodyPart::knee_r, {"knee", "kneejoint"});
-    case BodyPart::ankle_r:
-    case BodyPart::ankle_l:
-      return is_any(part == BodyPart::ankle_r, {"ankle", "anklejoint"});
-    case BodyPart::toe_r:
-    case BodyPart::toe_l:
-      return is_any(part == BodyPart::toe_r,
-                    {"toe", "bigtoe", "toes", "toetip", "hallux", "footindex"});
-    default:
-      return false;
-  }
+bool is_called(const BodyPartRow& part, std::string_view letters) {
+  return std::ranges::any_of(part.nouns, [&](std::string_view noun) {
+    if (noun.empty()) return false;
+    return part.side ? is_sided(letters, noun, *part.side == Side::right) : letters == noun;
+  });
 }
 
 }  // namespace
@@ -71,13 +51,8 @@ LabelMap::LabelMap(std::span<const std::string> labels,
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const std::string letters = plain(labels[i]);
     auto& targets = targets_[i];
-    for (const BodyPart part : kBodyParts)
-      if (is_sided_part(letters, part)) targets.push_back({part, kExact});
-    if (is_one_of(letters, {"pelvis", "midhip", "hipmid", "hip", "hips", "chip", "hipcenter",
-                            "hipcentre", "centerhip", "root"}))
-      targets.push_back({BodyPart::pelvis, kExact});
-    if (letters == "head" || letters == "headcenter" || letters == "headcentre")
-      targets.push_back({BodyPart::head, kExact});
+    for (const BodyPartRow& part : kBodyPartRows)
+      if (is_called(part, letters)) targets.push_back({part.part, kExact});
     if (is_sided(letters, "ear", true) || is_sided(letters, "ear", false))
       targets.push_back({BodyPart::head, kFallback});
     if (letters == "nose") targets.push_back({BodyPart::head, kLastResort});
@@ -110,11 +85,13 @@ std::array<Point, kBodyPartCount> LabelMap::parts(std::span<const Point> points)
   std::array<Point, kBodyPartCount> parts;
   for (int i = 0; i < kBodyPartCount; ++i)
     if (sums[i].count > 0)
-      parts[i] = {sums[i].p_px / sums[i].count, std::clamp(sums[i].confidence, 0.0, 1.0)};
+      parts[i] = {sums[i].p_px / sums[i].count, Source::detected,
+                  std::clamp(sums[i].confidence, 0.0, 1.0)};
   const Point &right = parts[index(BodyPart::hip_r)], &left = parts[index(BodyPart::hip_l)];
   Point& pelvis = parts[index(BodyPart::pelvis)];
   if (!pelvis.present() && right.present() && left.present())
-    pelvis = {(right.p_px + left.p_px) / 2, std::min(right.confidence, left.confidence)};
+    pelvis = {(right.p_px + left.p_px) / 2, Source::detected,
+              std::min(right.confidence, left.confidence)};
   return parts;
 }
 

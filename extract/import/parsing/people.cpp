@@ -146,6 +146,9 @@ void clean(DetectedPeople& people, const ImportOptions& options) {
           point.confidence < options.min_confidence)
         point = {};
       point.confidence = std::clamp(point.confidence, 0.0, 1.0);
+      // Files of hand-made points have no confidence or 1.
+      if (point.present())
+        point.source = point.confidence == 1 ? Source::clicked : Source::detected;
       if (options.y_up_height_px > 0) point.p_px.y() = options.y_up_height_px - 1 - point.p_px.y();
     }
 }

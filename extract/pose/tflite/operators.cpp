@@ -25,7 +25,7 @@ enum Code {
 };
 
 /// An operator while it is read.
-struct Reading {
+struct Record {
   FlatTable table;
   TfliteTensors& tensors;
   std::vector<int> inputs;
@@ -41,25 +41,25 @@ struct Reading {
   }
 };
 
-void require_shape(const Reading& r, const Shape& expected) {
+void require_shape(const Record& r, const Shape& expected) {
   require(r.out() == expected, "{} is {}: must be {} by what it is computed from", r.node.name,
           r.out(), expected);
 }
 
-void require_inputs(const Reading& r, std::size_t count) {
+void require_inputs(const Record& r, std::size_t count) {
   require(r.inputs.size() == count, "{} has {} inputs: must have {}", r.node.name, r.inputs.size(),
           count);
 }
 
 /// Batch 1, height, width, channels.
-const Shape& image(const Reading& r, std::size_t input) {
+const Shape& image(const Record& r, std::size_t input) {
   const Shape& shape = r.in(input);
   require(shape.size() == 4 && shape[0] == 1, "{}: its input is {}: must be 1 × height × width × C",
           r.node.name, shape);
   return shape;
 }
 
-void read_activation(Reading& r, int field) {
+void read_activation(Record& r, int field) {
   const auto activation = r.option<std::int8_t>(field, 0);
   require(activation == 0 || activation == 3,
           "{}: fused activation {}: only none (0) and RELU6 (3) are supported", r.node.name,
@@ -68,7 +68,7 @@ void read_activation(Reading& r, int field) {
 }
 
 /// Strides, border and the size of what comes out of a window that moves over the image.
-void read_window(Reading& r, int channels) {
+void read_window(Record& r, int channels) {
   Node& node = r.node;
   const Shape& from = image(r, 0);
   const auto padding = r.option<std::int8_t>(0, 0);  // 0 SAME, 1 VALID
@@ -107,7 +107,7 @@ std::vector<float> inputs_first(const std::vector<float>& weights, const Shape& 
   return result;
 }
 
-void read_convolution(Reading& r, bool depthwise) {
+void read_convolution(Record& r, bool depthwise) {
   require_inputs(r, 3);
   Node& node = r.node;
   const Shape& weights = r.in(1);
@@ -134,7 +134,7 @@ void read_convolution(Reading& r, bool depthwise) {
   node.inputs = {r.inputs[0]};
 }
 
-void read_addition(Reading& r) {
+void read_addition(Record& r) {
   require_inputs(r, 2);
   require(r.in(0) == r.in(1) && !r.tensors.is_constant(r.inputs[0]) &&
               !r.tensors.is_constant(r.inputs[1]),
@@ -144,7 +144,7 @@ void read_addition(Reading& r) {
   r.node.operation = Operation::addition;
 }
 
-void read_padding(Reading& r) {
+void read_padding(Record& r) {
   require_inputs(r, 2);
   const Shape from = image(r, 0);
   const std::vector<int> border = r.tensors.integers(r.inputs[1]);
@@ -159,7 +159,7 @@ void read_padding(Reading& r) {
   r.node.inputs = {r.inputs[0]};
 }
 
-void read_resize(Reading& r) {
+void read_resize(Record& r) {
   require_inputs(r, 2);
   const std::vector<int> size = r.tensors.integers(r.inputs[1]);
   const Shape& from = image(r, 0);
@@ -171,7 +171,7 @@ void read_resize(Reading& r) {
   r.node.inputs = {r.inputs[0]};
 }
 
-void read_max_pool(Reading& r) {
+void read_max_pool(Record& r) {
   require_inputs(r, 1);
   r.node.operation = Operation::max_pool;
   r.node.kernel_x = r.option<std::int32_t>(3, 0);
@@ -182,7 +182,7 @@ void read_max_pool(Reading& r) {
   read_window(r, image(r, 0)[3]);
 }
 
-void read_reshape(Reading& r) {
+void read_reshape(Record& r) {
   require(r.inputs.size() == 1 || r.inputs.size() == 2, "{} has {} inputs: must have 1 or 2",
           r.node.name, r.inputs.size());
   require(elements(r.in(0)) == elements(r.out()) && r.out().size() < 4,
@@ -192,13 +192,13 @@ void read_reshape(Reading& r) {
   r.node.inputs = {r.inputs[0]};
 }
 
-void read_sigmoid(Reading& r) {
+void read_sigmoid(Record& r) {
   require_inputs(r, 1);
   require_shape(r, r.in(0));
   r.node.operation = Operation::sigmoid;
 }
 
-void read_depth_to_space(Reading& r) {
+void read_depth_to_space(Record& r) {
   require_inputs(r, 1);
   const Shape& from = image(r, 0);
   const int block = r.option<std::int32_t>(0, 0);
@@ -209,7 +209,7 @@ void read_depth_to_space(Reading& r) {
   r.node.block = block;
 }
 
-void read_concatenation(Reading& r) {
+void read_concatenation(Record& r) {
   require(!r.inputs.empty(), "{} has no inputs", r.node.name);
   Shape whole = r.in(0);
   int axis = r.option<std::int32_t>(0, 0);
@@ -237,7 +237,7 @@ void read_concatenation(Reading& r) {
 std::optional<Node> node_of(int code, const FlatTable& table, TfliteTensors& tensors) {
   const std::vector<int> outputs = table.vector(2, 4).scalars<int>();
   require(outputs.size() == 1, "operator {} has {} outputs: must have one", code, outputs.size());
-  Reading r{table, tensors, table.vector(1, 4).scalars<int>(), {}};
+  Record r{table, tensors, table.vector(1, 4).scalars<int>(), {}};
   for (const int input : r.inputs) tensors.shape(input);  // is there
   r.node.output = outputs.front();
   r.node.name = tensors.name(r.node.output);

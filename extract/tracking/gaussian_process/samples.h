@@ -18,9 +18,12 @@ struct Group {
 };
 
 inline constexpr Group kPelvis{BodyPart::pelvis, BodyPart::pelvis};
-inline constexpr std::array kLegGroups{
-    Group{BodyPart::knee_r, BodyPart::knee_l}, Group{BodyPart::ankle_r, BodyPart::ankle_l},
-    Group{BodyPart::toe_r, BodyPart::toe_l}, Group{BodyPart::hip_r, BodyPart::hip_l}};
+inline constexpr auto kLegGroups = [] {
+  std::array<Group, kRightParts.size()> groups{};
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    groups[i] = {kRightParts[i], mirrored(kRightParts[i])};
+  return groups;
+}();
 inline constexpr Group kHead{BodyPart::head, BodyPart::head};
 
 /// An observation of a group: `left` 0 or 1.

@@ -71,9 +71,9 @@ TEST_F(Verdicts, MarksAtRandomAreRefused) {
 
 TEST_F(Verdicts, TheWrongDirectionIsRefusedAndAnUnknownOneFound) {
   Trajectory t = good();
-  t.direction = "left";
+  t.direction = Facing::left;
   EXPECT_THAT(judge(t), HasSubstr("refused: the knees bend forward"));
-  t.direction = "";
+  t.direction = std::nullopt;
   EXPECT_EQ(judge(t), "ok");
 }
 

@@ -72,7 +72,8 @@ TEST(AnnotationDocument, ChangesSurviveTheirJson) {
   annotation::Change change = click(3, BodyPart::toe_l, 1.0 / 3);
   change.clicks.push_back({4, 0.2, BodyPart::head, std::nullopt});
   change.settings = annotation::ClipSettings{
-      "left", "right", 2.5, true, FrameRange{1, 9}, FloorLine{{0, 1}, {2, 3.25}}, "a \"note\""};
+      Facing::left, Side::right, 2.5, true, FrameRange{1, 9}, FloorLine{{0, 1}, {2, 3.25}},
+      "a \"note\""};
   const annotation::Change back = annotation::change_of(annotation::line_of(change), "here");
   EXPECT_EQ(annotation::line_of(back), annotation::line_of(change));
   EXPECT_EQ(back.clicks[0].click->p_px.x(), 1.0 / 3);

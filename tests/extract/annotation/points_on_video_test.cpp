@@ -27,7 +27,9 @@ imports::Detections truth() {
     frame.frame = static_cast<int>(row[table.column("frame")]);
     for (const BodyPart part : kBodyParts) {
       const std::string prefix(name(part));
-      frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]}, 0.9};
+      frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]},
+                     Source::detected,
+                     0.9};
     }
   }
   return detections;
@@ -118,7 +120,8 @@ TEST(PointsOnVideo, OfATrimmedCopyDoNotFollowIt) {
 TEST(PointsOnVideo, OutsideThePictureAreLeftOutWhereTheyAreFew) {
   imports::Detections spoilt = truth();
   for (int i = 0; i < 4; ++i)
-    spoilt.frames[static_cast<std::size_t>(9 * i)][BodyPart::ankle_l] = {{-250, -456}, 0.9};
+    spoilt.frames[static_cast<std::size_t>(9 * i)][BodyPart::ankle_l] = {
+        {-250, -456}, Source::detected, 0.9};
   const Told result = told(spoilt);
   EXPECT_THAT(result.warnings, HasSubstr("outside the picture of 320 x 180 px, as far as (-250"));
   EXPECT_FALSE(result.marked.marks.frames[9][BodyPart::ankle_l].present());

@@ -30,7 +30,7 @@ Trajectory random_trajectory(std::uint64_t seed) {
     for (int i = 0; i < kBodyPartCount; ++i)
       if (i == 0 || unit(random) < 0.8)
         frame.points[i] = {shape[i] + Eigen::Vector2d(9 * unit(random), 9 * unit(random)),
-                           0.01 + 0.99 * unit(random)};
+                           Source::detected, 0.01 + 0.99 * unit(random)};
   }
   return trajectory;
 }

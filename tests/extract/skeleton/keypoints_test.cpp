@@ -17,8 +17,8 @@ Keypoints example() {
   k.video_sha256 = std::string(64, '0');
   k.width_px = 640;
   k.height_px = 360;
-  k.direction = "left";
-  k.near_leg = "right";
+  k.direction = Facing::left;
+  k.near_leg = Side::right;
   k.slow_motion = 4;
   k.treadmill = true;
   k.trim = FrameRange{3, 90};
@@ -43,8 +43,8 @@ TEST(Keypoints, ReadBackAsTheyWereSaved) {
   save(example(), folder / "a.keypoints.json");
   const Keypoints k = load_keypoints(folder / "a.keypoints.json");
   EXPECT_EQ(k.video, "a.mp4");
-  EXPECT_EQ(k.direction, "left");
-  EXPECT_EQ(k.near_leg, "right");
+  EXPECT_EQ(k.direction, Facing::left);
+  EXPECT_EQ(k.near_leg, Side::right);
   EXPECT_EQ(k.slow_motion, 4);
   EXPECT_EQ(k.treadmill, true);
   EXPECT_EQ(k.trim->last, 90);

@@ -17,14 +17,14 @@ TEST(Trajectory, ReadsBackWhatWasSaved) {
   trajectory.width_px = 640;
   trajectory.height_px = 360;
   trajectory.rate_hz = 29.97;
-  trajectory.direction = "left";
+  trajectory.direction = Facing::left;
   trajectory.frames.resize(2);
-  trajectory.frames[0][BodyPart::knee_r] = {{1.25, 2.5}, 0.75};
+  trajectory.frames[0][BodyPart::knee_r] = {{1.25, 2.5}, Source::tracked, 0.75};
   trajectory.frames[1].frame = 1;
   trajectory.frames[1].time_s = 1 / 29.97;
   save(trajectory, folder / "t.csv");
   const Trajectory loaded = load_trajectory(folder / "t.csv");
-  EXPECT_EQ(loaded.direction, "left");
+  EXPECT_EQ(loaded.direction, Facing::left);
   EXPECT_EQ(loaded.frames[0][BodyPart::knee_r].p_px, Eigen::Vector2d(1.25, 2.5));
   EXPECT_EQ(loaded.frames[0][BodyPart::knee_r].confidence, 0.75);
   EXPECT_FALSE(loaded.frames[0][BodyPart::knee_l].present());
@@ -47,12 +47,13 @@ TEST(Trajectory, RefusesSizesAndFramesThatAreNoWholeNumbers) {
   EXPECT_ERROR(load("640", "3,inf"), "frame 3: time_s = inf: must grow");
 }
 
-TEST(BodyPart, KnowsItsNamesAndMirrorImages) {
-  for (const BodyPart part : kBodyParts) {
-    EXPECT_EQ(body_part(name(part)), part);
-    EXPECT_EQ(mirrored(mirrored(part)), part);
-  }
-  EXPECT_ERROR(body_part("elbow"), "body part 'elbow': not known; use one of pelvis, knee_r");
+TEST(Trajectory, RefusesADirectionThatIsNone) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "t.csv",
+                        "# stride trajectory 1\n# unit: px\n# video: a\n# video_sha256: 0\n"
+                        "# width_px: 9\n# height_px: 9\n# rate_hz: 30\n# direction: Left\n"
+                        "frame,time_s\n3,0.1\n");
+  EXPECT_ERROR(load_trajectory(folder / "t.csv"), "direction = Left: must be right or left");
 }
 
 }  // namespace

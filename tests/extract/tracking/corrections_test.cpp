@@ -18,7 +18,9 @@ Trajectory runner() {
     TrajectoryFrame& frame = truth.frames.emplace_back();
     frame.frame = i;
     frame.time_s = i / 30.0;
-    const auto put = [&](BodyPart part, const Vector2d& p) { frame[part] = {p, 0.8}; };
+    const auto put = [&](BodyPart part, const Vector2d& p) {
+      frame[part] = {p, Source::detected, 0.8};
+    };
     put(BodyPart::pelvis, {100.0 + 3 * i, 100});
     for (const bool left : {false, true}) {
       const double phase = 0.3 * i + (left ? 3.14 : 0), thigh = 0.6 * std::sin(phase),
@@ -48,7 +50,7 @@ Trajectory clicked(const Trajectory& truth, std::initializer_list<int> frames, B
     TrajectoryFrame& frame = clicks.frames.emplace_back();
     frame.frame = i;
     frame.time_s = i / 30.0;
-    frame[part] = {truth.frames[static_cast<std::size_t>(i)][part].p_px, 1};
+    frame[part] = {truth.frames[static_cast<std::size_t>(i)][part].p_px, Source::clicked, 1};
   }
   return clicks;
 }

@@ -45,7 +45,7 @@ TEST(Track, CoversEveryFrameFromTheFirstMarkToTheLast) {
     EXPECT_GT(frame[BodyPart::ankle_l].confidence, 0);
   }
   EXPECT_NEAR(result.trajectory.rate_hz, 30, 1e-6);
-  EXPECT_EQ(result.trajectory.direction, "right");
+  EXPECT_EQ(result.trajectory.direction, Facing::right);
   EXPECT_EQ(frames.front()[BodyPart::knee_r].confidence, 1);
 }
 
@@ -98,7 +98,7 @@ TEST(Track, SaysWhatIsWrongWithTheMarks) {
   EXPECT_ERROR(tracking::track(marks, two_frames),
                "a.mp4: frame 5 is marked, but only 2 frames could be decoded");
   marks.frames[0].frame = 1;
-  marks.frames[0][BodyPart::knee_r] = {{1, 1}, 1};
+  marks.frames[0][BodyPart::knee_r] = {{1, 1}, Source::clicked, 1};
   EXPECT_ERROR(tracking::track(marks, two_frames), "a.mp4: the pelvis is marked on no frame");
 }
 
@@ -106,7 +106,7 @@ TEST(Track, CarriesASingleMarkedFrame) {
   Trajectory marks;
   marks.frames.resize(1);
   marks.frames[0].frame = 1;
-  marks.frames[0][BodyPart::pelvis] = {{10, 20}, 1};
+  marks.frames[0][BodyPart::pelvis] = {{10, 20}, Source::clicked, 1};
   const Trajectory result =
       tracking::track(marks, video::DecodedClip{{0, 0.1}, 1, {}, {}, {}}).trajectory;
   ASSERT_EQ(result.frames.size(), 1u);
@@ -115,11 +115,11 @@ TEST(Track, CarriesASingleMarkedFrame) {
 
 TEST(Track, TellsTheWayTheRunnerFacesFromTheKnees) {
   Trajectory points = tracked({}).trajectory;
-  EXPECT_EQ(tracking::facing(points), "right");
+  EXPECT_EQ(tracking::facing(points), Facing::right);
   for (TrajectoryFrame& frame : points.frames)
     for (Point& point : frame.points) point.p_px.x() *= -1;
-  EXPECT_EQ(tracking::facing(points), "left");
-  EXPECT_EQ(tracking::facing({}), "");
+  EXPECT_EQ(tracking::facing(points), Facing::left);
+  EXPECT_EQ(tracking::facing({}), std::nullopt);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(Noise, IsThatOfTheMarksAndSparesNoOutlier) {
   const double taken = std::sqrt(1 - parameters / marks);
   EXPECT_NEAR(truth.fit.sigma_px * taken, 2.2, 0.25);  // a tenth of outliers moves the median
   EXPECT_NEAR(truth.fit.outlier_fraction, 0.1, 0.03);
-  EXPECT_NEAR(truth.fit.rms_px, 2 * std::numbers::sqrt2, 0.3);  // of those that are believed
+  EXPECT_NEAR(truth.fit.rms_px, 2 * std::numbers::sqrt2, 0.3);  // of the inliers
   EXPECT_LT(truth.fit.correlation, 1.5);                        // each mark has its own
   for (const fit::MarkResidual& mark : truth.fit.marks)
     EXPECT_EQ(mark.outlier, mark.r_px.norm() > 4.685 * std::numbers::sqrt2 * truth.fit.sigma_px);

@@ -84,8 +84,8 @@ TEST_F(Annotating, AsksForDirectionAndNearLegOnce) {
   key('l');
   EXPECT_EQ(session->mode(), Mode::ask_near_leg);
   key(annotation::key::kEnter);
-  EXPECT_EQ(session->keypoints().direction, "left");
-  EXPECT_EQ(session->keypoints().near_leg, "left");
+  EXPECT_EQ(session->keypoints().direction, Facing::left);
+  EXPECT_EQ(session->keypoints().near_leg, Side::left);
   annotation::AnnotationSession again(*journal, frames);
   EXPECT_EQ(again.mode(), Mode::click);
 }
@@ -155,7 +155,7 @@ TEST_F(Annotating, UndoAndRedoCoverEverything) {
   const std::string last = text_of(session->keypoints());
   for (int i = 0; i < 40; ++i) key('u');
   EXPECT_TRUE(session->keypoints().frames.empty());
-  EXPECT_EQ(session->keypoints().direction, "");
+  EXPECT_EQ(session->keypoints().direction, std::nullopt);
   EXPECT_TRUE(session->has_problem());
   EXPECT_EQ(session->message(), "nothing to be undone");
   for (int i = 0; i < 40; ++i) key('r');
@@ -275,7 +275,7 @@ TEST_F(Annotating, AWindowKilledAtAHundredMomentsKeepsEveryClick) {
     ASSERT_GE(placed(keypoints), confirmed);
     ASSERT_LE(placed(keypoints), confirmed + 1);  // one that was not yet confirmed
     if (confirmed > 0) {
-      ASSERT_EQ(keypoints.near_leg, "right");
+      ASSERT_EQ(keypoints.near_leg, Side::right);
     }
   }
 }
@@ -306,7 +306,7 @@ TEST_F(Annotating, GoesToTheWorstFramesInTurnAndToSuspectedSwaps) {
     TrajectoryFrame& frame = prediction.trajectory.frames.emplace_back();
     frame.frame = f;
     for (Point& point : frame.points)
-      point = {{100, 100}, f == 60 ? 0.1 : f == 40 ? 0.2 : f == 1 ? 0 : 0.9};
+      point = {{100, 100}, Source::tracked, f == 60 ? 0.1 : f == 40 ? 0.2 : f == 1 ? 0 : 0.9};
     if (f == 20) frame[BodyPart::toe_l].confidence = 0.3;
   }
   session->set_prediction(prediction);
