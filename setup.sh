@@ -13,10 +13,10 @@ done
 
 packages="
   g++ cmake ninja-build pkg-config ca-certificates git
-  libopencv-dev libavformat-dev libeigen3-dev libceres-dev libsimbody-dev
+  libopencv-dev qtbase5-dev libavformat-dev libeigen3-dev libceres-dev libsimbody-dev
   libpugixml-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libfmt-dev libssl-dev libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
-  gnuplot-nox clang-format
+  gnuplot-nox clang-format xvfb xdotool
   python3-dev python3-numpy pybind11-dev
   libopenmpi-dev openmpi-bin
 "

@@ -10,7 +10,7 @@
 
 #include "extract/annotation/labelled_clip.h"
 #include "extract/annotation/points_on_video.h"
-#include "extract/annotation/qt_zoom.h"
+#include "extract/annotation/qt_wheel.h"
 #include "extract/annotation/session/background_tracker.h"
 #include "extract/annotation/session/predict.h"
 #include "extract/annotation/session/script.h"
@@ -107,16 +107,16 @@ void import_clicks(const Request& request, video::FrameStore& frames,
 /// Passed from the mouse callback to the loop below.
 struct Window {
   annotation::AnnotationSession& session;
-  annotation::QtZoom& qt_zoom;
+  Eigen::Vector2d mouse = {0, 0};  // where it was last, px of the canvas
   bool changed = true;
 };
 
-void on_mouse(int type, int x, int y, int flags, void* data) {
+void on_mouse(int type, int x, int y, int /*flags*/, void* data) {
   auto& window = *static_cast<Window*>(data);
   using Kind = annotation::AnnotationEvent::Kind;
   using Button = annotation::AnnotationEvent::Button;
   annotation::AnnotationEvent event;
-  event.p_canvas = {static_cast<double>(x), static_cast<double>(y)};
+  event.p_canvas = window.mouse = {static_cast<double>(x), static_cast<double>(y)};
   switch (type) {
     case cv::EVENT_LBUTTONDOWN:
     case cv::EVENT_RBUTTONDOWN:
@@ -129,11 +129,6 @@ void on_mouse(int type, int x, int y, int flags, void* data) {
     case cv::EVENT_RBUTTONUP:
     case cv::EVENT_MBUTTONUP:
       event.kind = Kind::release;
-      break;
-    case cv::EVENT_MOUSEWHEEL:
-      event.kind = Kind::wheel;
-      event.wheel = cv::getMouseWheelDelta(flags) > 0 ? 1 : -1;
-      window.qt_zoom.will_change();
       break;
     case cv::EVENT_MOUSEMOVE:
       event.kind = Kind::move;
@@ -153,11 +148,18 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
                 video::FrameStore& frames, cv::Size size_px) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
-  annotation::QtZoom qt_zoom(title);
   cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_GUI_NORMAL);
   cv::resizeWindow(title, size_px);
-  Window window{session, qt_zoom};
+  Window window{session};
   cv::setMouseCallback(title, on_mouse, &window);
+  const annotation::QtWheel wheel([&](int turn) {
+    annotation::AnnotationEvent event;
+    event.kind = annotation::AnnotationEvent::Kind::wheel;
+    event.p_canvas = window.mouse;
+    event.wheel = turn;
+    session.handle(event);
+    window.changed = true;
+  });
   int decoded = -1;
   auto last_event = Clock::now(), last_frame = last_event;
   const auto frame_time = std::chrono::duration<double>(session.frame_s());
@@ -170,7 +172,7 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
     if (!frames.complete() || decoded != frames.count()) window.changed = true;
     decoded = frames.count();
     if (window.changed) {
-      qt_zoom.show(session.picture());
+      cv::imshow(title, session.picture());
       window.changed = false;
       last_event = Clock::now();
     }
@@ -187,7 +189,6 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
       window.changed = true;
     }
     const int key = cv::waitKeyEx(session.playing() ? 2 : 15);
-    qt_zoom.take_back();
     if (key >= 0) {
       annotation::AnnotationEvent event;
       event.kind = annotation::AnnotationEvent::Kind::key;
