@@ -8,16 +8,21 @@
 namespace stride {
 
 /// The paper's three functions of the distance d of one part (Sec. "Potential function"), bounded
-/// at d = 0 by ε. Another one is an enumerator, its name and its formula, all of them here; the
-/// compiler refuses what is forgotten.
-enum class InverseDistance { pf1, pf2, pf3 };
+/// at d = 0 by ε, and pf4 = exp(−d²/s²) − 1, s² = ε² + the part's own variance over the stride: a
+/// squared exponential (Jeon et al. 2023) with the length scale of the demonstration, shifted so
+/// that it is nowhere positive. Another one is an enumerator, its name and its formula, all of them
+/// here; the compiler refuses what is forgotten.
+enum class InverseDistance { pf1, pf2, pf3, pf4 };
 
 /// Their names in files and options.
 inline constexpr Names<InverseDistance> kInverseDistances({{InverseDistance::pf1, "pf1"},
                                                            {InverseDistance::pf2, "pf2"},
-                                                           {InverseDistance::pf3, "pf3"}});
+                                                           {InverseDistance::pf3, "pf3"},
+                                                           {InverseDistance::pf4, "pf4"}});
 
-inline double inverse_distance(InverseDistance function, const Eigen::Vector2d& d, double epsilon) {
+/// `variance`: mean square of the part's distance from its mean place over the stride, m².
+inline double inverse_distance(InverseDistance function, const Eigen::Vector2d& d, double epsilon,
+                               double variance) {
   switch (function) {
     case InverseDistance::pf1:
       return 1 / (std::abs(d.x()) + std::abs(d.y()) + epsilon);
@@ -25,6 +30,8 @@ inline double inverse_distance(InverseDistance function, const Eigen::Vector2d& 
       return 1 / std::sqrt(d.squaredNorm() + epsilon * epsilon);
     case InverseDistance::pf3:
       return 1 / (d.squaredNorm() + epsilon * epsilon);
+    case InverseDistance::pf4:
+      return std::expm1(-d.squaredNorm() / (epsilon * epsilon + variance));
   }
   return 0;
 }

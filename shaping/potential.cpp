@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "extract/io/error.h"
@@ -10,13 +11,29 @@
 namespace stride {
 namespace {
 
+/// Mean square distance of a part from its mean place over the keyframes, m².
+double variance(const std::vector<Keyframe>& keyframes, PosePart part) {
+  const auto n = static_cast<double>(keyframes.size());
+  double total = 0;
+  for (std::size_t i = 0; i < compared(part).numbers; ++i) {
+    double sum = 0, squares = 0;
+    for (const Keyframe& keyframe : keyframes) sum += keyframe.pose.numbers(part)[i];
+    for (const Keyframe& keyframe : keyframes)
+      squares += std::pow(keyframe.pose.numbers(part)[i] - sum / n, 2);
+    total += squares / n;
+  }
+  return total;
+}
+
 /// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so that it is
 /// compared by its height.
 double closeness(const Potential& potential, const Pose& pose, const Pose& target) {
+  const bool by_variance = potential.function == InverseDistance::pf4;
   double sum = 0;
   for (const ComparedPart& each : kPoseParts)
     sum += inverse_distance(potential.function, displacement(target, pose, each.part),
-                            potential.epsilon_m);
+                            potential.epsilon_m,
+                            by_variance ? variance(potential.keyframes, each.part) : 0);
   return potential.weight * sum;
 }
 
@@ -47,7 +64,7 @@ std::vector<double> periodic_spline_weights(std::size_t n, double position) {
 
 double Potential::operator()(const Pose& pose, double phase) const {
   if (index == PotentialIndex::time) return closeness(*this, pose, target(phase));
-  double nearest = 0;
+  double nearest = -std::numeric_limits<double>::infinity();
   for (const Keyframe& keyframe : keyframes)
     nearest = std::max(nearest, closeness(*this, pose, keyframe.pose));
   return nearest;
@@ -65,6 +82,17 @@ Pose Potential::target(double phase) const {
     for (std::size_t i = 0; i < kPoseNumbers; ++i) pose.m[i] += weights[k] * key.m[i];
   }
   return pose;
+}
+
+double Potential::contrast() const {
+  double in_step = 0, anywhere = 0;
+  const auto n = static_cast<double>(keyframes.size());
+  for (const Keyframe& demonstrated : keyframes) {
+    in_step += closeness(*this, demonstrated.pose, demonstrated.pose) / n;
+    for (const Keyframe& other : keyframes)
+      anywhere += closeness(*this, other.pose, demonstrated.pose) / (n * n);
+  }
+  return in_step - anywhere;
 }
 
 InverseDistance inverse_distance(std::string_view name) {

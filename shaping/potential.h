@@ -40,13 +40,17 @@ struct Potential {
   double epsilon_m = 0.05;
   double weight = 1;
 
-  /// Φ(s, phase) ≥ 0: weight · the sum over pelvis height, two knees, two feet. Between keyframes
-  /// the target moves on a periodic cubic spline. `phase` (any real number, modulo 1) is ignored by
-  /// the index `nearest`.
+  /// Φ(s, phase), ≥ 0 or of pf4 ≤ 0: weight · the sum over pelvis height, two knees, two feet.
+  /// Between keyframes the target moves on a periodic cubic spline. `phase` (any real number,
+  /// modulo 1) is ignored by the index `nearest`.
   double operator()(const Pose& pose, double phase) const;
 
   /// Phase after `time_s` from phase 0, at the video's cadence.
   double phase_at(double time_s) const;
+
+  /// By how much the demonstrated motion in its own time is higher than the same motion at any
+  /// other, in the mean: what there is to gain, whatever function, index, ε and clip are.
+  double contrast() const;
 
   /// The pose of the runner in the video at that phase.
   Pose target(double phase) const;

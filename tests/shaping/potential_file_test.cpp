@@ -55,8 +55,8 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
   EXPECT_ERROR(load("{}"), "p.json: is not a potential: the key format");
   EXPECT_ERROR(load(with(hamner_text(), "\"version\": 1", "\"version\": 2")),
                "version = 2: this program reads version 1; make the file anew");
-  EXPECT_ERROR(load(with(hamner_text(), "\"pf3\"", "\"pf4\"")),
-               "function = 'pf4': must be one of pf1, pf2, pf3");
+  EXPECT_ERROR(load(with(hamner_text(), "\"pf3\"", "\"pf9\"")),
+               "function = 'pf9': must be one of pf1, pf2, pf3, pf4");
   EXPECT_ERROR(load(with(hamner_text(), "0.6899", "0")), "stride.period_s = 0: must be positive");
   EXPECT_ERROR(load(with(hamner_text(), "0.6899", "NaN")), "p.json: is not JSON");
   EXPECT_ERROR(load(with(hamner_text(), "0.6899", "1e999")), "p.json: is not JSON");

@@ -45,6 +45,42 @@ TEST(Potential, HasThePapersClosedForms) {
               2 * (at_target_pf3 + 1 / (0.01 + e * e) + 1 / (0.0025 + e * e)), 1e-6);
 }
 
+/// exp(−d²/s²) − 1 with the part's own variance over the stride; 0 on the stride, −5 far from it.
+TEST(Potential, Pf4IsASquaredExponentialOfTheKeyframesOwnSpreadNowherePositive) {
+  Potential potential = hamner();
+  potential.function = InverseDistance::pf4;
+  potential.weight = 2;
+  potential.epsilon_m = 0.05;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double squares = 0;
+  const auto n = static_cast<double>(potential.keyframes.size());
+  for (const Keyframe& keyframe : potential.keyframes) mean += keyframe.pose[PosePart::foot_l] / n;
+  for (const Keyframe& keyframe : potential.keyframes)
+    squares += (keyframe.pose[PosePart::foot_l] - mean).squaredNorm() / n;
+  Pose pose = potential.target(0.25);
+  EXPECT_NEAR(potential(pose, 0.25), 0, 1e-12);
+  pose[PosePart::foot_l] += Eigen::Vector2d(0.03, -0.04);
+  EXPECT_NEAR(potential(pose, 0.25), 2 * (std::exp(-0.0025 / (squares + 0.0025)) - 1), 1e-12);
+  for (double& m : pose.m) m += 100;
+  EXPECT_NEAR(potential(pose, 0.25), -2 * 5, 1e-12);
+  potential.index = PotentialIndex::nearest;
+  EXPECT_NEAR(potential(pose, 0.25), -2 * 5, 1e-12);
+}
+
+TEST(Potential, ContrastIsWhatAStrideInItsOwnTimeHasOverOneAtAnyOther) {
+  Potential potential = hamner();
+  const auto n = static_cast<double>(potential.keyframes.size());
+  for (const auto& [function, name] : kInverseDistances) {
+    potential.function = function;
+    double expected = 0;
+    for (const Keyframe& now : potential.keyframes)
+      for (const Keyframe& other : potential.keyframes)
+        expected += (potential(now.pose, now.phase) - potential(other.pose, now.phase)) / (n * n);
+    EXPECT_GT(expected, 0) << name;
+    EXPECT_NEAR(potential.contrast(), expected, 1e-9 * expected) << name;
+  }
+}
+
 TEST(Potential, IsHighestOnTheStride) {
   std::mt19937_64 random(1);
   Potential potential = hamner();

@@ -38,6 +38,8 @@ void add_evaluate_command(CLI::App& app) {
                       "Write this run as a demonstration, NAME.calibrated.csv");
   command->add_option("--from", options.from_s, "Where the demonstration begins, s")
       ->capture_default_str();
+  command->add_option("--clip", options.clip,
+                      "Compare the joint angles with this run, NAME.calibrated.csv");
   command->add_flag("--no-film", request->no_film, "No evaluation.mp4");
   command->callback([request] {
     request->options.film = !request->no_film;

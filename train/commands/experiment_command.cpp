@@ -43,7 +43,27 @@ void replace_potential(const std::filesystem::path& potential,
     if (arm.potential == replaced) arm.potential = potential;
 }
 
+void experiment_as_requested(const Request& request);
+
+/// All of a group: what became of their claims, or the experiments one after the other.
+void group_as_requested(const std::vector<std::filesystem::path>& group, const Request& request) {
+  if (request.list) fmt::print("{}", experiments::kVerdictHeading);
+  for (const std::filesystem::path& file : group) {
+    if (request.list) {
+      fmt::print("{}", experiments::verdict_row(file));
+      continue;
+    }
+    Request one = request;
+    one.name = file.string();
+    if (!one.options.runs.empty()) one.options.runs /= file.parent_path().filename();
+    if (!one.options.report.empty()) one.options.report /= file.parent_path().filename();
+    experiment_as_requested(one);
+  }
+}
+
 void experiment_as_requested(const Request& request) {
+  if (const auto group = experiments::experiment_group(request.name); !group.empty())
+    return group_as_requested(group, request);
   experiments::ExperimentOptions options = request.options;
   std::vector<std::string> settings = request.settings;
   if (request.decisions) settings.push_back(fmt::format("run.decisions={}", *request.decisions));
@@ -80,7 +100,8 @@ void add_experiment_command(CLI::App& app) {
   experiments::ExperimentOptions& options = request->options;
   command
       ->add_option("NAME", request->name,
-                   "A folder of train/results, as baseline-vs-shaping; or an experiment.toml")
+                   "A folder of train/results, as baseline-vs-shaping or figures/mirrored; an "
+                   "experiment.toml; or figures/all: each of that folder")
       ->required();
   command->add_option("--potential", request->potential,
                       "Instead of the potential of the first shaped arm");
@@ -88,7 +109,8 @@ void add_experiment_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
   command->add_option("--jobs", options.jobs, "Runs side by side")->capture_default_str();
-  command->add_flag("--list", request->list, "Only print the runs, ARM/SEED, a line each");
+  command->add_flag("--list", request->list,
+                    "Only print the runs, ARM/SEED, a line each; of figures/all the verdicts");
   command->add_option("--only", options.only,
                       "Only these runs, ARM/SEED, without a report: for an array of jobs");
   command->add_flag("--merge", options.merge,

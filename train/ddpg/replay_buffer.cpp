@@ -114,13 +114,16 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
     for (int i = 0;; ++i) {
       const Record& step = record(last, environment);
       reward += discount * options.reward_scale * step.reward;
-      discount *= options.gamma;
       terminated = step.outcome == Outcome::terminated;
       ++last;
+      if (options.shaped && !options.discounted)
+        reward +=
+            discount * shaping_reward(phi(step), phi(record(last, environment)), 1, terminated);
+      discount *= options.gamma;
       if (step.outcome != Outcome::continued || i + 1 == options.n_step || last + 1 == rounds_)
         break;
     }
-    if (options.shaped)
+    if (options.shaped && options.discounted)
       reward += shaping_reward(phi(record(round, environment)), phi(record(last, environment)),
                                discount, terminated);
 

@@ -40,8 +40,9 @@ struct SampleOptions {
   int n_step = 1;
   double gamma = 0.99;
   double reward_scale = 1;
-  bool shaped = false;  // add F = γΦ(s′) − Φ(s) of every step
-  bool mirror = true;   // half of the samples are mirrored, as if each was stored twice
+  bool shaped = false;     // add F = γΦ(s′) − Φ(s) of every step
+  bool discounted = true;  // or Φ(s′) − Φ(s)
+  bool mirror = true;      // half of the samples are mirrored, as if each was stored twice
 };
 
 /// The decisions of several environments in lockstep. Every round adds one record of each

@@ -1,6 +1,7 @@
 #include "train/environment/mirror.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "extract/io/error.h"
 
@@ -30,6 +31,24 @@ Mirror mirror_by_name(const std::vector<std::string>& names) {
     mirror.sign.push_back(negated ? -1 : 1);
   }
   return mirror;
+}
+
+Mirror no_mirror(std::size_t size) {
+  Mirror mirror{
+      .source = std::vector<int>(size), .sign = std::vector<double>(size, 1), .negated = {}};
+  std::iota(mirror.source.begin(), mirror.source.end(), 0);
+  return mirror;
+}
+
+RightLegAhead right_leg_ahead(const std::vector<std::string>& features,
+                              const std::vector<std::string>& actions) {
+  RightLegAhead symmetry{.features = mirror_by_name(features), .actions = mirror_by_name(actions)};
+  const auto found = std::ranges::find(features, "hip_flexion_r");
+  require(found != features.end(),
+          "ppo.mirror: needs hip_flexion_r among the features, to tell which leg is ahead");
+  symmetry.hip_r = static_cast<int>(found - features.begin());
+  symmetry.hip_l = symmetry.features.source[static_cast<std::size_t>(symmetry.hip_r)];
+  return symmetry;
 }
 
 }  // namespace stride::environment

@@ -31,4 +31,24 @@ std::string mirrored_name(std::string_view name);
 /// leaves the rest. Throws Error naming a quantity whose other side is missing.
 Mirror mirror_by_name(const std::vector<std::string>& names);
 
+/// Leaves a vector of that size as it is.
+Mirror no_mirror(std::size_t size);
+
+/// Makes right and left one to an agent: it sees every state so that its right leg is ahead, which
+/// is to say the mirror image of a state whose left hip is flexed further, and what it then does is
+/// mirrored back. Such an agent is symmetric, whatever its network is.
+struct RightLegAhead {
+  Mirror features, actions;
+  int hip_r = 0, hip_l = 0;  // among the features, not normalised
+
+  template <typename Features>
+  bool mirrors(const Features& seen) const {
+    return seen[hip_l] > seen[hip_r];
+  }
+};
+
+/// Throws Error if hip_flexion_r is not among the features.
+RightLegAhead right_leg_ahead(const std::vector<std::string>& features,
+                              const std::vector<std::string>& actions);
+
 }  // namespace stride::environment

@@ -14,7 +14,9 @@ namespace {
 simulation::EngineOptions engine_options(const RunnerOptions& options) {
   simulation::EngineOptions engine;
   engine.accuracy = options.accuracy;
-  return competition::under(options.rules, engine);
+  engine = competition::under(options.rules, engine);
+  engine.drop_contacts &= options.drop_contacts;
+  return engine;
 }
 
 /// The depth to which the feet sink in quiet standing, m.
@@ -88,7 +90,8 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   if (options_.reference && uniform(random) < options_.reference_share)
     start_on_reference(random);
   else
-    competition::set_initial_state(options_.rules, *engine_);
+    competition::set_initial_state(options_.raw_fibres ? options_.rules : competition::Rules::clean,
+                                   *engine_);
   start_x_m_ = engine_->state().q[simulation::kPelvisX];
   kinematics_ = engine_->kinematics();
   observe();

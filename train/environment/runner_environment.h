@@ -32,6 +32,8 @@ struct RunnerOptions {
   double flat_share = 0, few_share = 0;
   /// Under nips2017: observed positions of bodies are late now and then (O6), see LatePositions.
   bool late_positions = true;
+  /// Under nips2017, false only to find out what they do: O1 and O2 of competition::Rules.
+  bool raw_fibres = true, drop_contacts = true;
 };
 
 /// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation, reward and

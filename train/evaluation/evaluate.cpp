@@ -50,6 +50,13 @@ Json to_json(const rollout::GaitSummary& gait) {
           {"peak_ground_force_bw", number(gait.peak_ground_force_bw)}};
 }
 
+/// Null if there was no clip.
+Json to_json(const std::optional<rollout::ClipLikeness>& likeness) {
+  if (!likeness) return {};
+  return {{"angle_rms_deg", number(likeness->angle_rms_deg)},
+          {"inside_share", number(likeness->inside_share)}};
+}
+
 Json to_json(const Evaluation& evaluation, const fs::path& agent) {
   const EpisodeStatistics& statistics = evaluation.statistics;
   Json episodes = Json::array();
@@ -72,6 +79,7 @@ Json to_json(const Evaluation& evaluation, const fs::path& agent) {
           {"median_seed", evaluation.first_seed + median_episode(evaluation.episodes)},
           {"gait", to_json(evaluation.gait)},
           {"human_at_this_speed", to_json(rollout::human_gait(evaluation.gait.speed_m_s))},
+          {"clip", to_json(evaluation.likeness)},
           {"episodes", episodes}};
 }
 
@@ -118,6 +126,10 @@ std::string Evaluation::brief_report() const {
   if (std::isfinite(gait.leg_phase))
     text += fmt::format("\n  {:<18}{:>6.2f}  {}", "phase of the legs", gait.leg_phase,
                         rollout::leg_pattern(gait.leg_phase));
+  if (likeness)
+    text += fmt::format(
+        "\n  {:<18}{:>6.2f}  of the joint angles inside the clip's band, rms {:.0f} deg",
+        "like the clip", likeness->inside_share, likeness->angle_rms_deg);
   return text + (human ? "" : "\n  humans do not run at this speed: no figures to compare with");
 }
 
@@ -152,6 +164,8 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
       record_one(agent, train_options, potential, environment,
                  evaluation.first_seed + median_episode(evaluation.episodes));
   evaluation.gait = rollout::gait_of(median, model);
+  if (!options.clip.empty())
+    evaluation.likeness = rollout::likeness(median, load_calibrated(options.clip), model);
 
   const fs::path out = options.out.empty() ? run : options.out;
   evaluation.file = out / "evaluation.json";

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "train/evaluation/episodes.h"
+#include "train/rollout/clip_likeness.h"
 #include "train/rollout/gait_summary.h"
 #include "train/training/options.h"
 
@@ -21,15 +23,17 @@ struct EvaluateOptions {
   std::filesystem::path out;    // folder of what is written; empty: the run folder
   bool film = true;
   std::filesystem::path
-      trajectory;     // if not empty: a demonstration of the median episode goes there
-  double from_s = 2;  // where the demonstration begins
+      trajectory;              // if not empty: a demonstration of the median episode goes there
+  double from_s = 2;           // where the demonstration begins
+  std::filesystem::path clip;  // NAME.calibrated.csv to compare the gait with; empty: none
 };
 
 struct Evaluation {
   std::vector<network::EpisodeSummary> episodes;
   std::uint64_t first_seed = 0;
   EpisodeStatistics statistics;
-  rollout::GaitSummary gait;  // of the median episode
+  rollout::GaitSummary gait;                      // of the median episode
+  std::optional<rollout::ClipLikeness> likeness;  // of that to options.clip
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -10,6 +10,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/parallel/ranks.h"
+#include "train/evaluation/evaluate.h"
 #include "train/experiments/experiment_report.h"
 #include "train/ppo/train_run.h"
 #include "train/training/runner_factory.h"
@@ -23,16 +24,24 @@ struct Job {
   const ExperimentArm* arm = nullptr;
   int seed = 0;
   fs::path run;
+  bool elsewhere = false;  // another experiment has its curve
 };
 
 /// Paired seeds next to each other, so that an unfinished experiment can be compared.
 std::vector<Job> jobs_of(const ExperimentOptions& options) {
   std::vector<Job> jobs;
   for (int seed = 1; seed <= options.experiment.seeds; ++seed)
-    for (const ExperimentArm& arm : options.experiment.arms)
-      jobs.push_back({&arm, seed, options.runs / arm.name / std::to_string(seed)});
+    for (const ExperimentArm& arm : options.experiment.arms) {
+      const fs::path other = arm.curves / std::to_string(seed);
+      const bool elsewhere = !arm.curves.empty() && fs::exists(other / "curve.csv");
+      jobs.push_back({&arm, seed,
+                      elsewhere ? other : options.runs / arm.name / std::to_string(seed),
+                      elsewhere});
+    }
   return jobs;
 }
+
+bool is_finished(const Job& job) { return job.elsewhere || fs::exists(job.run / "finished"); }
 
 std::string name_of(const Job& job) { return fmt::format("{}/{}", job.arm->name, job.seed); }
 
@@ -51,7 +60,7 @@ void keep_only(const std::vector<std::string>& names, std::vector<Job>& jobs) {
 void keep_finished(std::FILE* messages, std::vector<Job>& jobs) {
   std::set<int> missing;
   for (const Job& job : jobs)
-    if (!fs::exists(job.run / "finished")) {
+    if (!is_finished(job)) {
       fmt::print(messages, "{}: is not finished; seed {} is left out\n", name_of(job), job.seed);
       missing.insert(job.seed);
     }
@@ -60,7 +69,7 @@ void keep_finished(std::FILE* messages, std::vector<Job>& jobs) {
 }
 
 void begin(const Job& job) {
-  if (fs::exists(job.run / "config.toml")) return;
+  if (job.elsewhere || fs::exists(job.run / "config.toml")) return;
   const fs::path& potential = job.arm->potential;
   training::TrainOptions options = job.arm->train;
   options.run.seed = job.seed;
@@ -74,8 +83,9 @@ struct FileCloser {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Trains to the end or until stopped. The replay memory of a finished run is removed.
-std::string work_on(const Job& job, const std::atomic<bool>& stop) {
+/// Trains to the end or until stopped, then evaluates the last agent. The replay memory of a
+/// finished run is removed.
+std::string work_on(const Job& job, const fs::path& clip, const std::atomic<bool>& stop) {
   const training::TrainOptions options = training::load_run_options(job.run);
   const std::unique_ptr<std::FILE, FileCloser> log(std::fopen((job.run / "log.txt").c_str(), "a"));
   const training::TrainSummary summary =
@@ -86,30 +96,46 @@ std::string work_on(const Job& job, const std::atomic<bool>& stop) {
   if (!summary.divergence.empty()) return summary.divergence;
   if (!summary.unsaved.empty()) return summary.unsaved;
   if (!summary.finished) return "stopped";
+  evaluation::EvaluateOptions last;
+  last.threads = 1;
+  last.agent = "agent";
+  last.film = false;
+  last.clip = clip;
+  evaluation::evaluate(job.run, last);
   write_file_atomically(job.run / "finished", "");
   fs::remove_all(job.run / "replay");
   return summary.brief_report();
 }
 
-/// Copies configuration and curves of each run.
+/// Copies configuration, curves and evaluation of each run.
 void copy_runs(const std::vector<Job>& jobs, const fs::path& report) {
   for (const Job& job : jobs) {
+    if (job.elsewhere) continue;
     const fs::path to = report / job.arm->name / std::to_string(job.seed);
-    for (const char* name : {"config.toml", "curve.csv", "timing.csv"})
-      write_file_atomically(to / name, read_file(job.run / name));
+    for (const char* name : {"config.toml", "curve.csv", "timing.csv", "evaluation.json"})
+      if (fs::exists(job.run / name)) write_file_atomically(to / name, read_file(job.run / name));
   }
 }
 
+/// The runs of each arm of the experiment.
+std::vector<Arm> arms_of(const std::vector<Job>& jobs, const ExperimentFile& experiment) {
+  std::vector<Arm> arms;
+  for (const ExperimentArm& arm : experiment.arms) {
+    arms.push_back({.label = arm.name, .runs = {}, .decisions = arm.train.run.decisions});
+    for (const Job& job : jobs)
+      if (job.arm->name == arm.name) arms.back().runs.push_back(job.run);
+  }
+  return arms;
+}
+
 void write_report(const std::vector<Job>& jobs, const ExperimentOptions& options) {
-  std::vector<fs::path> runs;
-  for (const Job& job : jobs) runs.push_back(job.run);
-  const std::vector<Arm> arms = arms_of(runs);
   copy_runs(jobs, options.report);
   const ExperimentFile& experiment = options.experiment;
-  write_file_atomically(options.report / "results.md",
-                        experiment_report(experiment.title, results_of(arms, experiment.decisions),
-                                          experiment.decisions, options.command));
-  for (const char* against : {"decisions", "wall"})
+  const std::vector<Arm> arms = arms_of(jobs, experiment);
+  write_file_atomically(
+      options.report / "results.md",
+      experiment_report(experiment, results_of(arms, experiment.decisions), options.command));
+  for (const std::string& against : {experiment.against(), std::string("wall")})
     plot(arms, {.against = against, .out = options.report / against});
 }
 
@@ -121,6 +147,28 @@ std::vector<std::string> run_names(const ExperimentFile& experiment) {
   std::vector<std::string> names;
   for (const Job& job : jobs_of(options)) names.push_back(name_of(job));
   return names;
+}
+
+std::string verdict_row(const fs::path& file) {
+  const ExperimentFile experiment = load_experiment(file);
+  const ExperimentClaim& claim = experiment.claim;
+  std::string row =
+      fmt::format("| {} | {} | {} / {} |", absolute(file).parent_path().filename().string(),
+                  claim.text, claim.better, claim.than);
+  ExperimentOptions kept;
+  kept.experiment = experiment;
+  kept.runs = absolute(file).parent_path();
+  std::vector<Job> jobs = jobs_of(kept);
+  std::set<int> missing;  // seeds that an arm does not have
+  for (const Job& job : jobs)
+    if (!fs::exists(job.run / "curve.csv")) missing.insert(job.seed);
+  std::erase_if(jobs, [&](const Job& job) { return missing.contains(job.seed); });
+  if (jobs.empty()) return row + " 0 | | | not run yet |\n";
+  const std::vector<Arm> arms = arms_of(jobs, experiment);
+  const Verdict verdict = verdict_on(claim, results_of(arms, experiment.decisions));
+  return row + fmt::format(" {} | {} | {:.2f} … {:.2f} | {} |\n", verdict.pairs,
+                           ratio_text(verdict.ratio), verdict.ratio.bootstrap_low,
+                           verdict.ratio.bootstrap_high, verdict.word);
 }
 
 bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
@@ -141,9 +189,9 @@ bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& s
   training::ThreadPool pool(options.jobs);
   pool.run(static_cast<int>(jobs.size()), [&](int i) {
     const Job& job = jobs[static_cast<std::size_t>(i)];
-    if (stop || fs::exists(job.run / "finished")) return;
+    if (stop || is_finished(job)) return;
     fmt::print(messages, "{} seed {}: begins\n", job.arm->name, job.seed);
-    const std::string outcome = work_on(job, stop);
+    const std::string outcome = work_on(job, options.experiment.clip, stop);
     fmt::print(messages, "{} seed {}: {}\n", job.arm->name, job.seed, outcome);
     std::fflush(messages);
   });

@@ -20,6 +20,13 @@ struct ExperimentOptions {
   bool merge = false;  // train nothing: report over the runs that are there
 };
 
+/// What became of the claim, from the curves that are kept beside `file`: a row of a table in
+/// Markdown with its name, the claim, the ratio with its interval, and the verdict.
+std::string verdict_row(const std::filesystem::path& file);
+inline constexpr const char* kVerdictHeading =
+    "| experiment | claim | arms | seeds | ratio (95 %) | bootstrap | verdict |\n"
+    "|---|---|---|---|---|---|---|\n";
+
 /// All runs of the experiment, as "ARM/SEED", in the order in which they are done.
 std::vector<std::string> run_names(const ExperimentFile& experiment);
 

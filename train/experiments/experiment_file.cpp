@@ -3,11 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <set>
+#include <string_view>
 
 #include "extract/io/data_file.h"
 #include "extract/io/error.h"
+#include "train/experiments/experiment_report.h"
 
 namespace stride::experiments {
 namespace fs = std::filesystem;
@@ -31,15 +33,16 @@ Sections sections_of(const fs::path& file) {
   return sections;
 }
 
-/// The settings of all arms. Of the four keys `seeds` may be missing.
+/// The settings of all arms. Only title, preset and decisions must be there.
 void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file,
                   ExperimentFile& experiment) {
+  constexpr std::array<std::string_view, 9> kKeys{"title",  "preset", "decisions", "seeds", "claim",
+                                                  "better", "than",   "at",        "clip"};
   std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)}};
   for (const TomlSetting& setting : settings) {
     const std::string key = setting.key();
-    require(key == "title" || key == "preset" || key == "decisions" || key == "seeds",
-            "{}: {}: unknown key; before the arms there are title, preset, decisions and seeds",
-            file.string(), key);
+    require(std::ranges::count(kKeys, key) > 0, "{}: {}: unknown key; before the arms there are {}",
+            file.string(), key, fmt::join(kKeys, ", "));
     require(setting.words.size() == 1, "{}: {}: one value is needed", file.string(), key);
     texts[key] = setting.words.front();
   }
@@ -56,16 +59,49 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
           file.string(), texts["seeds"]);
   experiment.seeds = static_cast<int>(numbers.run.seed);
   experiment.decisions = numbers.run.decisions;
+  if (!texts["clip"].empty())
+    experiment.clip = (file.parent_path() / texts["clip"]).lexically_normal();
+  experiment.claim = {.text = texts["claim"], .better = texts["better"], .than = texts["than"]};
+  if (texts["at"].empty()) return;
+  const std::string& at = texts["at"];
+  const auto share = std::ranges::find_if(
+      kBudgetShares, [&](double each) { return fmt::format("{}", each) == at; });
+  require(share != kBudgetShares.end(), "{}: at = {}: must be one of {}", file.string(), at,
+          fmt::join(kBudgetShares, ", "));
+  experiment.claim.at = *share;
+}
+
+/// The arms of the claim are arms.
+void complete_claim(const fs::path& file, ExperimentFile& experiment) {
+  ExperimentClaim& claim = experiment.claim;
+  if (claim.better.empty()) claim.better = experiment.arms.back().name;
+  if (claim.than.empty()) claim.than = experiment.arms.front().name;
+  for (const std::string& name : {claim.better, claim.than})
+    require(std::ranges::count(experiment.arms, name, &ExperimentArm::name) > 0,
+            "{}: the claim is about '{}', which is no arm", file.string(), name);
+}
+
+/// train/results/GROUP/NAME/experiment.toml, by name; the group may be empty.
+std::map<std::string, fs::path> experiments_in(const fs::path& folder, const std::string& group) {
+  std::map<std::string, fs::path> files;
+  if (fs::is_directory(folder / group))
+    for (const auto& entry : fs::directory_iterator(folder / group))
+      if (fs::exists(entry.path() / "experiment.toml"))
+        files[(fs::path(group) / entry.path().filename()).string()] =
+            entry.path() / "experiment.toml";
+  return files;
 }
 
 ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
                      const fs::path& file, const training::TrainOptions& common) {
-  ExperimentArm arm{name, {}, common};
+  ExperimentArm arm{name, {}, {}, common};
   std::erase_if(settings, [&](const TomlSetting& setting) {
-    if (setting.key() != "potential") return false;
-    require(setting.words.size() <= 1, "{}: {}.potential: one file is needed", file.string(), name);
+    const std::string key = setting.key();
+    if (key != "potential" && key != "curves") return false;
+    require(setting.words.size() <= 1, "{}: {}.{}: one path is needed", file.string(), name, key);
     if (!setting.words.empty() && !setting.words.front().empty())
-      arm.potential = (file.parent_path() / setting.words.front()).lexically_normal();
+      (key == "curves" ? arm.curves : arm.potential) =
+          (file.parent_path() / setting.words.front()).lexically_normal();
     return true;
   });
   training::set_options(settings, fmt::format("{}: [{}]", file.string(), name), arm.train);
@@ -78,12 +114,23 @@ ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
 fs::path experiment_file(const std::string& name) {
   if (name.ends_with(".toml")) return name;
   const fs::path folder = data_file("train/results");
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (fs::exists(entry.path() / "experiment.toml")) names.insert(entry.path().filename());
-  require(names.contains(name), "experiment '{}': must be one of {}, or a .toml file", name,
+  std::map<std::string, fs::path> files = experiments_in(folder, "");
+  files.merge(experiments_in(folder, fs::path(name).parent_path().string()));
+  std::vector<std::string> names;
+  for (const auto& [each, file] : files) names.push_back(each);
+  require(files.contains(name), "experiment '{}': must be one of {}, or a .toml file", name,
           fmt::join(names, ", "));
-  return folder / name / "experiment.toml";
+  return files.at(name);
+}
+
+std::vector<fs::path> experiment_group(const std::string& name) {
+  std::vector<fs::path> group;
+  if (!name.ends_with("/all")) return group;
+  for (const auto& [each, file] :
+       experiments_in(data_file("train/results"), fs::path(name).parent_path().string()))
+    group.push_back(file);
+  require(!group.empty(), "experiment '{}': there is no such group of experiments", name);
+  return group;
 }
 
 ExperimentFile load_experiment(const fs::path& file, const std::vector<std::string>& settings) {
@@ -98,6 +145,7 @@ ExperimentFile load_experiment(const fs::path& file, const std::vector<std::stri
   experiment.decisions = common.run.decisions;
   for (auto section = std::next(sections.begin()); section != sections.end(); ++section)
     experiment.arms.push_back(arm_of(section->first, std::move(section->second), file, common));
+  complete_claim(file, experiment);
   return experiment;
 }
 

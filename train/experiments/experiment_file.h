@@ -12,7 +12,15 @@ namespace stride::experiments {
 struct ExperimentArm {
   std::string name;
   std::filesystem::path potential;  // empty: none
+  std::filesystem::path curves;     // of another experiment's arm that has the same settings
   training::TrainOptions train;
+};
+
+/// What an experiment tests: that one arm comes farther than another.
+struct ExperimentClaim {
+  std::string text;          // empty: none
+  std::string better, than;  // arms
+  double at = 1;             // share of the decisions, one of kBudgetShares
 };
 
 /// train/results/NAME/experiment.toml:
@@ -21,6 +29,11 @@ struct ExperimentArm {
 ///     preset = "shaping"        # of every arm
 ///     decisions = 800000        # of each run
 ///     seeds = 5                 # 1, 2, …, the same in each arm
+///     claim = "twice as far at half of the training"  # these five may be missing
+///     better = "nearest"        # the last arm if not given
+///     than = "baseline"         # the first arm if not given
+///     at = 0.5                  # of the decisions: 0.1, 0.2, 0.3, 0.5 or 1, which is usual
+///     clip = "../human.calibrated.csv"        # whose gait the arms' are compared with
 ///
 ///     [baseline]                # the arm that the others are compared with is the first
 ///     potential = ""            # none
@@ -28,15 +41,31 @@ struct ExperimentArm {
 ///     [nearest]
 ///     potential = "../human.potential.json"   # from this file's folder
 ///     shaping.index = "nearest"               # any setting of config.toml
+///     curves = "../ways/human-nearest"        # instead of training seeds that are there
 struct ExperimentFile {
   std::string title, preset;
   std::int64_t decisions = 0;
   int seeds = 5;
+  ExperimentClaim claim;
+  std::filesystem::path clip;       // empty: none
   std::vector<ExperimentArm> arms;  // in the order of the file
+
+  /// What the arms' curves are drawn against: "decisions", or "simulated" if they have other
+  /// budgets.
+  std::string against() const {
+    for (const ExperimentArm& arm : arms)
+      if (arm.train.run.decisions != decisions) return "simulated";
+    return "decisions";
+  }
 };
 
-/// NAME, or the path of an experiment.toml. Throws Error with the list of experiments.
+/// NAME, as baseline-vs-shaping or figures/mirrored, or the path of an experiment.toml. Throws
+/// Error with the list of experiments.
 std::filesystem::path experiment_file(const std::string& name);
+
+/// The files of all experiments of a group: of "figures/all" those in train/results/figures. Empty
+/// if the name is no group's.
+std::vector<std::filesystem::path> experiment_group(const std::string& name);
 
 /// Each of `settings` (KEY=VALUE) applies to all arms that do not set the key themselves. Throws
 /// Error naming file, key and cure.

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "extract/io/error.h"
+#include "extract/io/file.h"
+#include "extract/io/random.h"
 #include "extract/io/table.h"
 
 namespace stride::experiments {
@@ -28,6 +32,38 @@ double student_95(std::size_t degrees) {
   return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees)), 0.975);
 }
 
+/// 95 % interval of the mean: percentiles over samples of as many values drawn with replacement.
+std::pair<double, double> bootstrap_95(const std::vector<double>& values) {
+  constexpr int kSamples = 10000;
+  Random random(1);  // always the same samples
+  std::vector<double> means;
+  for (int i = 0; i < kSamples; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      sum += values[uniform_index(random, values.size())];
+    means.push_back(sum / static_cast<double>(values.size()));
+  }
+  std::ranges::sort(means);
+  return {means[kSamples / 40], means[kSamples - 1 - kSamples / 40]};
+}
+
+/// NaN where the run was not evaluated, or it did not come to a stride.
+GaitFigures gait_of(const std::filesystem::path& run) {
+  GaitFigures gait{NAN, NAN, NAN, NAN, NAN};
+  if (!std::filesystem::exists(run / "evaluation.json")) return gait;
+  const auto json = nlohmann::json::parse(read_file(run / "evaluation.json"), nullptr, false);
+  const auto number = [&](const char* part, const char* key) -> double {
+    if (!json.is_object() || !json.contains(part) || !json[part].is_object()) return NAN;
+    const auto& value = json[part];
+    return value.contains(key) && value[key].is_number() ? value[key].get<double>() : NAN;
+  };
+  return {.leg_phase = number("gait", "leg_phase"),
+          .duty_factor = number("gait", "duty_factor"),
+          .cadence_per_min = number("gait", "cadence_per_min"),
+          .inside_share = number("clip", "inside_share"),
+          .angle_rms_deg = number("clip", "angle_rms_deg")};
+}
+
 std::optional<Reached> first_reached(const Table& curve, const Table& timing, double distance_m) {
   const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
   const std::size_t timing_x = timing.column("decisions"), wall = timing.column("wall_s");
@@ -38,6 +74,47 @@ std::optional<Reached> first_reached(const Table& curve, const Table& timing, do
     return Reached{row[x], NAN};
   }
   return std::nullopt;
+}
+
+double mean_of_column(const Table& curve, const char* name) {
+  const std::size_t y = curve.column(name);
+  std::vector<double> values;
+  for (const auto& row : curve.rows) values.push_back(row[y]);
+  return values.empty() ? NAN : mean(values);
+}
+
+/// Mean over the seeds of one of the figures; seeds without it are left out.
+std::string gait_text(const ArmResult& arm, double GaitFigures::*figure, int digits) {
+  std::vector<double> values;
+  for (const GaitFigures& gait : arm.gait)
+    if (std::isfinite(gait.*figure)) values.push_back(gait.*figure);
+  return plus_minus(values, digits);
+}
+
+std::string gait_table(const std::vector<ArmResult>& results) {
+  std::string text =
+      "| arm | phase of the legs | duty factor | steps a minute | joint angles inside the clip's "
+      "band | their rms difference, deg |\n|---|---|---|---|---|---|\n";
+  for (const ArmResult& arm : results)
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", arm.label,
+                        gait_text(arm, &GaitFigures::leg_phase, 2),
+                        gait_text(arm, &GaitFigures::duty_factor, 2),
+                        gait_text(arm, &GaitFigures::cadence_per_min, 0),
+                        gait_text(arm, &GaitFigures::inside_share, 2),
+                        gait_text(arm, &GaitFigures::angle_rms_deg, 0));
+  return text;
+}
+
+std::string claim_text(const ExperimentFile& experiment, const std::vector<ArmResult>& results) {
+  const ExperimentClaim& claim = experiment.claim;
+  const Verdict verdict = verdict_on(claim, results);
+  return fmt::format(
+      "Claim: {}.\n\n**{}**: {} over {} after {:.0f} k decisions {} over {} pairs of seeds, "
+      "bootstrap {:.2f} … {:.2f}; a ratio of {:.2f} would have been told from 1.\n\n",
+      claim.text, verdict.word, claim.better, claim.than,
+      claim.at * static_cast<double>(experiment.decisions) / 1000, ratio_text(verdict.ratio),
+      verdict.pairs, verdict.ratio.bootstrap_low, verdict.ratio.bootstrap_high,
+      verdict.ratio.detectable());
 }
 
 std::string reached_text(const std::vector<std::optional<Reached>>& seeds) {
@@ -98,10 +175,11 @@ double distance_at(const Table& curve, double decisions, double window) {
 }
 
 std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions) {
-  const auto budget = static_cast<double>(decisions);
   std::vector<ArmResult> results;
   for (const Arm& arm : arms) {
-    ArmResult result{.label = arm.label, .distance_m = {}, .reached = {}};
+    const auto budget = static_cast<double>(arm.decisions > 0 ? arm.decisions : decisions);
+    ArmResult result;
+    result.label = arm.label;
     for (const std::filesystem::path& run : arm.runs) {
       const Table curve = load_table(run / "curve.csv", "curve", 1);
       const Table timing = load_table(run / "timing.csv", "timing", 1);
@@ -110,6 +188,8 @@ std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t dec
             distance_at(curve, kBudgetShares[k] * budget, kWindowShare * budget));
       for (std::size_t k = 0; k < kDistances_m.size(); ++k)
         result.reached[k].push_back(first_reached(curve, timing, kDistances_m[k]));
+      result.mean_distance_m.push_back(mean_of_column(curve, "evaluation_distance_m"));
+      result.gait.push_back(gait_of(run));
     }
     results.push_back(std::move(result));
   }
@@ -120,23 +200,42 @@ PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<d
   std::vector<double> logs;
   for (std::size_t i = 0; i < std::min(treated.size(), control.size()); ++i)
     logs.push_back(std::log(treated[i] / control[i]));
-  if (logs.size() < 2) return {NAN, NAN, NAN};
+  PairedRatio unknown{NAN, NAN, NAN, NAN, NAN};
+  if (logs.size() < 2 || !std::isfinite(mean(logs))) return unknown;
   const double half_width = student_95(logs.size() - 1) * standard_deviation(logs) /
                             std::sqrt(static_cast<double>(logs.size()));
+  const auto [low, high] = bootstrap_95(logs);
   return {std::exp(mean(logs)), std::exp(mean(logs) - half_width),
-          std::exp(mean(logs) + half_width)};
+          std::exp(mean(logs) + half_width), std::exp(low), std::exp(high)};
 }
 
-std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,
-                              std::int64_t decisions, const std::string& command) {
-  const auto at = [decisions](double share) {
-    return fmt::format("{:.0f} k", share * static_cast<double>(decisions) / 1000);
+Verdict verdict_on(const ExperimentClaim& claim, const std::vector<ArmResult>& results) {
+  const auto better = std::ranges::find(results, claim.better, &ArmResult::label);
+  const auto than = std::ranges::find(results, claim.than, &ArmResult::label);
+  const auto share = std::ranges::find(kBudgetShares, claim.at);
+  require(better != results.end() && than != results.end() && share != kBudgetShares.end(),
+          "the claim compares {} with {}: there are no results of them", claim.better, claim.than);
+  const auto k = static_cast<std::size_t>(share - kBudgetShares.begin());
+  Verdict verdict{.ratio = paired_ratio(better->distance_m[k], than->distance_m[k]),
+                  .pairs = better->distance_m[k].size(),
+                  .word = "undecided"};
+  if (verdict.ratio.low > 1) verdict.word = "holds";
+  if (verdict.ratio.high < 1) verdict.word = "the opposite holds";
+  return verdict;
+}
+
+std::string experiment_report(const ExperimentFile& experiment,
+                              const std::vector<ArmResult>& results, const std::string& command) {
+  const auto at = [&experiment](double share) {
+    return fmt::format("{:.0f} k", share * static_cast<double>(experiment.decisions) / 1000);
   };
-  std::string text = fmt::format(
-      "# {}\n\n    {}\n\n"
+  std::string text = fmt::format("# {}\n\n    {}\n\n", experiment.title, command);
+  if (!experiment.claim.text.empty()) text += claim_text(experiment, results);
+  text += fmt::format(
       "Distance in 10 s (m) without noise, mean ± standard error over {} seeds, after so many "
-      "decisions (evaluations of the twentieth of the budget before):\n\n",
-      title, command, results.front().distance_m[0].size());
+      "decisions (evaluations of the twentieth of the budget before; of an arm with another "
+      "budget after the same share of it):\n\n",
+      results.front().distance_m[0].size());
   text += table(results, 0, kBudgetShares, at, [](const ArmResult& arm, std::size_t k) {
     return plus_minus(arm.distance_m[k], 1);
   });
@@ -149,14 +248,26 @@ std::string experiment_report(const std::string& title, const std::vector<ArmRes
   text += table(
       results, 0, kDistances_m, [](double d) { return fmt::format("{:.0f} m", d); },
       [](const ArmResult& arm, std::size_t k) { return reached_text(arm.reached[k]); });
-  text += "\nEach seed at the end, m:\n\n";
+  text += "\nMean over the whole curve, m:\n\n";
+  for (const ArmResult& arm : results)
+    text += fmt::format("- {}: {}\n", arm.label, plus_minus(arm.mean_distance_m, 1));
+  const bool evaluated = std::ranges::any_of(results, [](const ArmResult& arm) {
+    return std::ranges::any_of(
+        arm.gait, [](const GaitFigures& gait) { return std::isfinite(gait.duty_factor); });
+  });
+  if (evaluated)
+    text += "\nHow they run at the end (½: legs in turn, 0: at once):\n\n" + gait_table(results);
+  text += "\nEach seed at the end, m, and their standard deviation:\n\n";
   for (const ArmResult& arm : results) {
     text += fmt::format("- {}:", arm.label);
     for (const double d : arm.distance_m.back()) text += fmt::format(" {:.1f}", d);
+    if (arm.distance_m.back().size() > 1)
+      text += fmt::format("; {:.1f}", standard_deviation(arm.distance_m.back()));
     text += "\n";
   }
   return text +
-         "\n![distance against decisions](decisions.png)\n\n![against wall clock](wall.png)\n";
+         fmt::format("\n![distance against {0}]({0}.png)\n\n![against wall clock](wall.png)\n",
+                     experiment.against());
 }
 
 }  // namespace stride::experiments

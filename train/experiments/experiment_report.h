@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "extract/io/table.h"
+#include "train/experiments/experiment_file.h"
 #include "train/experiments/plot.h"
 
 namespace stride::experiments {
 
 /// Shares of the budget at which arms are compared, and distances in 10 s to which they are timed.
 inline constexpr std::array kBudgetShares{0.1, 0.2, 0.3, 0.5, 1.0};
-inline constexpr std::array kDistances_m{5.0, 10.0, 15.0, 20.0, 25.0};
+inline constexpr std::array kDistances_m{5.0, 10.0, 15.0, 20.0, 25.0, 30.0};
 /// The share of the budget over which evaluations are averaged.
 inline constexpr double kWindowShare = 0.05;
 
@@ -28,31 +29,56 @@ struct Reached {
   double wall_s = 0;
 };
 
+/// Of a run's evaluation.json.
+struct GaitFigures {
+  double leg_phase = 0, duty_factor = 0, cadence_per_min = 0;  // GaitSummary
+  double inside_share = 0, angle_rms_deg = 0;                  // ClipLikeness
+};
+
 /// The results of one arm, with an element for each seed.
 struct ArmResult {
   std::string label;
   /// Mean of the evaluations in the twentieth of the budget that ends at each of kBudgetShares, or
   /// the last before, m; NaN where there is none.
   std::array<std::vector<double>, kBudgetShares.size()> distance_m;
+  /// Mean of all evaluations of a curve: the area under it, divided by the budget, m.
+  std::vector<double> mean_distance_m;
+  /// How the agents run at the end; NaN where it is not known.
+  std::vector<GaitFigures> gait;
   /// The first evaluation that reached each of kDistances_m; none if no evaluation did.
   std::array<std::vector<std::optional<Reached>>, kDistances_m.size()> reached;
 };
 
-/// Reads curve.csv and timing.csv of the runs. `decisions` is the budget.
+/// Reads curve.csv and timing.csv of the runs. `decisions` is the budget of arms without their own.
 std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions);
 
-/// A ratio over paired seeds: exp of the mean of log ratios, with Student's 95 % interval.
+/// A ratio over paired seeds: exp of the mean of log ratios, with Student's 95 % interval and that
+/// of the bootstrap (percentiles over resampled pairs).
 struct PairedRatio {
   double ratio = 0, low = 0, high = 0;  // NaN where there are too few seeds, or a distance ≤ 0
+  double bootstrap_low = 0, bootstrap_high = 0;
+
+  /// The smallest ratio above 1 that so many seeds with that scatter would have told from 1.
+  double detectable() const { return ratio / low; }
 };
 PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<double>& control);
+
+/// What became of a claim.
+struct Verdict {
+  PairedRatio ratio;
+  std::size_t pairs = 0;
+  /// "holds" if the interval is above 1, "the opposite holds" if it is below, else "undecided".
+  std::string word;
+};
+Verdict verdict_on(const ExperimentClaim& claim, const std::vector<ArmResult>& results);
 
 /// Mean ± standard error, and ratio (interval), for a table; "–" where there is none.
 std::string plus_minus(const std::vector<double>& values, int digits);
 std::string ratio_text(const PairedRatio& ratio);
 
-/// results.md: distances, ratios to the first arm and times to distances, as tables.
-std::string experiment_report(const std::string& title, const std::vector<ArmResult>& results,
-                              std::int64_t decisions, const std::string& command);
+/// results.md: the verdict, distances, ratios to the first arm, times to distances and gaits, as
+/// tables.
+std::string experiment_report(const ExperimentFile& experiment,
+                              const std::vector<ArmResult>& results, const std::string& command);
 
 }  // namespace stride::experiments

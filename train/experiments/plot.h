@@ -19,6 +19,7 @@ struct PlotOptions {
 struct Arm {
   std::string label;
   std::vector<std::filesystem::path> runs;
+  std::int64_t decisions = 0;  // of each run; 0: those of the experiment
 };
 
 /// Runs whose folders are named by a number are seeds of the arm that is the folder above:

@@ -32,9 +32,10 @@ int number(const Tensors& tensors, const std::string& key, const std::string& te
 /// An agent's file.
 Tensors load_agent(const std::filesystem::path& file) {
   Tensors tensors = load_tensors(file);
-  require(tensors.meta("format") == "stride agent" && tensors.meta("version") == "1",
-          "{}: is a {} of version {}, a stride agent of version 1 is needed", tensors.file,
-          tensors.meta("format"), tensors.meta("version"));
+  const std::string &format = tensors.meta("format"), &version = tensors.meta("version");
+  require(format == "stride agent" && (version == "1" || version == "2"),
+          "{}: is a {} of version {}, a stride agent of version 1 or 2 is needed", tensors.file,
+          format, version);
   return tensors;
 }
 
@@ -55,7 +56,6 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, environment::Environmen
                            const std::function<void(const Eigen::VectorXd& action)>& after_step) {
   EpisodeSummary episode;
   Eigen::VectorXd features, action;
-  typename Mlp<Scalar>::Matrix input;
   typename Mlp<Scalar>::Workspace work;
   const auto phase = [&] {
     if (potential == nullptr) return 0.0;
@@ -66,9 +66,7 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, environment::Environmen
   action = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(environment.spec().action_names.size()));
   if (after_step) after_step(action);
   for (bool over = false; !over;) {
-    input = features.cast<Scalar>();
-    policy.normaliser.apply(input);
-    action = policy.actor.forward(input, work).col(0).template cast<double>();
+    action = policy.act(features, work);
     for (int i = 0; i < action_repeat && !over; ++i) {
       const environment::Step& step = environment.step(action);
       if (after_step) after_step(action);
@@ -97,13 +95,14 @@ void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& f
   const MlpShape& shape = policy.actor.shape();
   Tensors tensors;
   tensors.metadata = {{"format", "stride agent"},
-                      {"version", "1"},
+                      {"version", policy.symmetry ? "2" : "1"},
                       {"actor.hidden", fmt::format("{}", fmt::join(shape.hidden, ","))},
                       {"actor.activation", std::string(name(shape.activation))},
                       {"actor.layer_norm", shape.layer_norm ? "true" : "false"},
                       {"features", fmt::format("{}", fmt::join(features, ","))},
                       {"actions", fmt::format("{}", fmt::join(actions, ","))},
                       {"action_repeat", fmt::format("{}", action_repeat)}};
+  if (policy.symmetry) tensors.metadata["right_leg_ahead"] = "true";
   for (const auto& block : policy.actor.blocks()) {
     const Scalar* data = policy.actor.parameters().data() + block.offset;
     using Matrix = typename Mlp<Scalar>::Matrix;
@@ -154,6 +153,8 @@ Policy<Scalar> load_policy(const std::filesystem::path& file,
   tensors.get("normaliser.mean", mean);
   tensors.get("normaliser.inverse_sd", inverse_sd);
   policy.normaliser.fix(mean, inverse_sd);
+  if (tensors.meta("version") == "2")
+    policy.symmetry = environment::right_leg_ahead(features, actions);
   return policy;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,23 @@ struct Policy {
   Mlp<Scalar> actor;
   Normaliser normaliser;
   double sigma = 0;  // of the current exploration noise
+  /// If it sees every state with its right leg ahead; the normaliser is then of what it sees.
+  std::optional<environment::RightLegAhead> symmetry = {};
+
+  /// The action without noise, for features as observed.
+  Eigen::VectorXd act(const Eigen::VectorXd& features,
+                      typename Mlp<Scalar>::Workspace& work) const {
+    const bool mirrored = symmetry && symmetry->mirrors(features);
+    Eigen::VectorXd seen = features;
+    if (mirrored) symmetry->features.apply(features, seen);
+    typename Mlp<Scalar>::Matrix input = seen.cast<Scalar>();
+    normaliser.apply(input);
+    const Eigen::VectorXd action = actor.forward(input, work).col(0).template cast<double>();
+    if (!mirrored) return action;
+    Eigen::VectorXd done(action.size());
+    symmetry->actions.apply(action, done);
+    return done;
+  }
 };
 
 /// The outcome of an episode.
@@ -42,7 +60,8 @@ EpisodeSummary run_episode(const Policy<Scalar>& policy, environment::Environmen
 /// normalisation, variance + 1e-5, before the activation), `normaliser.mean`,
 /// `normaliser.inverse_sd` [features]. action = sigmoid(actor(clip((features − mean) · inverse_sd,
 /// ±10))). Metadata: format, version, actor.hidden, actor.activation, actor.layer_norm, features
-/// and actions (names, separated by commas), action_repeat.
+/// and actions (names, separated by commas), action_repeat. Version 2 has `right_leg_ahead`: where
+/// hip_flexion_l > hip_flexion_r, features and action are mirrored (RightLegAhead).
 template <typename Scalar>
 void save_policy(const Policy<Scalar>& policy, const std::vector<std::string>& features,
                  const std::vector<std::string>& actions, int action_repeat,

@@ -61,6 +61,39 @@ class Graph {
   }
 };
 
+/// The matrix M with M x the mirror image of x.
+Eigen::MatrixXd matrix_of(const environment::Mirror& mirror) {
+  const auto n = static_cast<Eigen::Index>(mirror.source.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    matrix(i, mirror.source[static_cast<std::size_t>(i)]) =
+        mirror.sign[static_cast<std::size_t>(i)];
+  return matrix;
+}
+
+/// x, or its mirror image where the left leg is ahead in `features`: (1 − m) x + m (mirrored x)
+/// with m = 0 or 1, a row, since OpenCV 4.6 multiplies no row by a number. m is the difference of
+/// the hips, so large that clipping it to [0, 1] leaves nothing between.
+std::string mirrored_if_left_is_ahead(Graph& graph, const environment::RightLegAhead& symmetry,
+                                      const environment::Mirror& mirror, const std::string& name,
+                                      const std::string& x, const std::string& features) {
+  constexpr double kLarge = 1e30;
+  const auto n = static_cast<Eigen::Index>(mirror.source.size());
+  const auto inputs = static_cast<Eigen::Index>(symmetry.features.source.size());
+  Eigen::MatrixXd left_less_right = Eigen::MatrixXd::Zero(n, inputs);
+  left_less_right.col(symmetry.hip_l).setConstant(kLarge);
+  left_less_right.col(symmetry.hip_r).setConstant(-kLarge);
+  const std::string difference =
+      graph.affine(features, name + ".left_ahead", left_less_right, Eigen::VectorXd::Zero(n));
+  const std::string m = graph.add("Clip", {difference}, {{"min", 0.0f}, {"max", 1.0f}});
+  const std::string not_m = graph.with_row(
+      "Add", graph.with_row("Mul", m, name + ".minus_one", Eigen::VectorXd::Constant(n, -1)),
+      name + ".one", Eigen::VectorXd::Ones(n));
+  const std::string image =
+      graph.affine(x, name + ".mirror", matrix_of(mirror), Eigen::VectorXd::Zero(n));
+  return graph.add("Add", {graph.add("Mul", {not_m, x}), graph.add("Mul", {m, image})});
+}
+
 /// Parameters of layer i by their name in the policy's file.
 template <typename Scalar>
 Eigen::MatrixXd parameters(const Mlp<Scalar>& mlp, std::size_t i, const std::string& name) {
@@ -101,7 +134,11 @@ std::string to_onnx(const Policy<Scalar>& policy, const PolicyNames& names) {
   const MlpShape& shape = policy.actor.shape();
   Graph graph;
   const auto limit = static_cast<float>(Normaliser::kLimit);
-  std::string x = graph.with_row("Sub", "features", "mean", policy.normaliser.mean());
+  std::string x = "features";
+  if (policy.symmetry)
+    x = mirrored_if_left_is_ahead(graph, *policy.symmetry, policy.symmetry->features, "seen", x,
+                                  "features");
+  x = graph.with_row("Sub", x, "mean", policy.normaliser.mean());
   x = graph.with_row("Mul", x, "inverse_sd", policy.normaliser.inverse_sd());
   x = graph.add("Clip", {x}, {{"min", -limit}, {"max", limit}});
   const std::size_t last = shape.hidden.size();
@@ -113,6 +150,9 @@ std::string to_onnx(const Policy<Scalar>& policy, const PolicyNames& names) {
                        parameters(policy.actor, i, "bias"));
     x = graph.add(operation_of(i == last ? shape.output : shape.activation), {x});
   }
+  if (policy.symmetry)
+    x = mirrored_if_left_is_ahead(graph, *policy.symmetry, policy.symmetry->actions, "done", x,
+                                  "features");
 
   OnnxModel& model = graph.model;
   model.nodes.back().outputs = {"actions"};

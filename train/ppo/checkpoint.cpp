@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <sstream>
-
 #include "extract/io/error.h"
 #include "train/network/safetensors.h"
 #include "train/ppo/training.h"
@@ -12,23 +10,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestEpisode = 1'000'000;  // decisions
-
-std::string to_text(const Random& random) {
-  std::ostringstream out;
-  out << random;
-  return std::move(out).str();
-}
-
-Random random_from(const std::string& text, const std::string& file) {
-  Random random;
-  std::istringstream in(text);
-  in >> random;
-  std::istringstream last(text.substr(text.find_last_of(' ') + 1));
-  std::size_t next = 0;
-  require(!in.fail() && last >> next && next <= Random::state_size,
-          "{}: the state of a random number generator cannot be read", file);
-  return random;
-}
 
 void put(network::Tensors& tensors, const std::string& name, const network::Mlp<float>& network,
          const network::Adam<float>& adam) {
@@ -50,7 +31,7 @@ void get(const network::Tensors& tensors, const std::string& name, network::Mlp<
 }
 
 void put(network::Tensors& tensors, const std::string& name, const SlotState& state) {
-  tensors.put_bytes(name + ".random", to_text(state.random));
+  tensors.put_bytes(name + ".random", training::to_text(state.random));
   tensors.put(name + ".running", std::int64_t{state.running});
   tensors.put(name + ".seed", static_cast<std::int64_t>(state.episode_seed));
   tensors.put_bytes(name + ".actions",
@@ -67,7 +48,7 @@ double number(const network::Tensors& tensors, const std::string& name) {
 
 SlotState get(const network::Tensors& tensors, const std::string& name, std::size_t actions) {
   SlotState state;
-  state.random = random_from(tensors.bytes(name + ".random"), tensors.file);
+  state.random = training::random_from(tensors.bytes(name + ".random"), tensors.file);
   state.running = tensors.integer(name + ".running") != 0;
   state.episode_seed = static_cast<std::uint64_t>(tensors.integer(name + ".seed"));
   const std::string& bytes = tensors.bytes(name + ".actions");
@@ -114,7 +95,7 @@ void save_checkpoint(const Training& training, const fs::path& run) {
   visit_counters(progress, [&](const char* name, std::int64_t value) { tensors.put(name, value); });
   visit_sums(progress, sums,
              [&](const char* name, double value) { tensors.put(name, Eigen::VectorXd{{value}}); });
-  tensors.put_bytes("random", to_text(training.random));
+  tensors.put_bytes("random", training::to_text(training.random));
   put(tensors, "actor", training.learner.actor(), training.learner.actor_adam());
   const ScaledCritic& critic = training.learner.critic();
   put(tensors, "critic", critic.net, critic.adam);
@@ -138,7 +119,7 @@ void load_checkpoint(Training& training, const fs::path& run) {
                  [&](const char* name, std::int64_t& value) { value = tensors.integer(name); });
   visit_sums(training.progress, training.sums,
              [&](const char* name, double& value) { value = number(tensors, name); });
-  training.random = random_from(tensors.bytes("random"), tensors.file);
+  training.random = training::random_from(tensors.bytes("random"), tensors.file);
   Learner& learner = training.learner;
   get(tensors, "actor", learner.actor(), learner.actor_adam());
   get(tensors, "critic", learner.critic().net, learner.critic().adam);

@@ -13,10 +13,10 @@ constexpr int kParts = 2;
 constexpr double kSlowestRate = 1e-6, kFastestRate = 3e-3;
 constexpr float kLargestLogRatio = 10;  // e¹⁰: far beyond the clip
 
-network::MlpShape shape(const std::vector<int>& hidden, const std::string& activations,
-                        std::size_t inputs, std::size_t outputs) {
-  return {.inputs = static_cast<int>(inputs),
-          .outputs = static_cast<int>(outputs),
+network::MlpShape shape(const std::vector<int>& hidden, const std::string& activations, int inputs,
+                        int outputs) {
+  return {.inputs = inputs,
+          .outputs = outputs,
           .hidden = hidden,
           .activation = network::activation(activations)};
 }
@@ -27,12 +27,6 @@ network::Adam<float> adam(const Options& options) {
 
 /// From `first` to `last` as `age` goes from 0 to 1.
 double annealed(double first, double last, double age) { return first + age * (last - first); }
-
-/// The second half of the columns becomes the mirror image of the first.
-void append_mirrored(const environment::Mirror& mirror, Eigen::Index columns, Matrix& matrix) {
-  matrix.conservativeResize(Eigen::NoChange, 2 * columns);
-  for (Eigen::Index i = 0; i < columns; ++i) mirror.apply(matrix.col(i), matrix.col(columns + i));
-}
 
 /// Columns of a batch, gathered, and what a part of a minibatch adds to the gradients.
 struct Part {
@@ -48,13 +42,13 @@ struct Part {
     logits.resize(batch.logits.rows(), n);
     log_probabilities.resize(n), advantages.resize(n), targets.resize(n);
     for (int i = 0; i < n; ++i) {
-      const int column = columns[i], decision = column % batch.decisions();
+      const int column = columns[i];
       states.col(i) = batch.states.col(column);
       actions.col(i) = batch.actions.col(column);
       logits.col(i) = batch.logits.col(column);
       log_probabilities[i] = batch.log_probabilities[column];
-      advantages[i] = batch.advantages[decision];
-      targets[i] = scaled_returns[decision];
+      advantages[i] = batch.advantages[column];
+      targets[i] = scaled_returns[column];
     }
   }
 
@@ -100,17 +94,13 @@ double explained_variance(const RolloutBatch& batch) {
 
 }  // namespace
 
-Learner::Learner(const Options& options, const environment::Mirror& features,
-                 const environment::Mirror& actions, Random& weights)
+Learner::Learner(const Options& options, int features, int actions, Random& weights)
     : options_(options),
-      feature_mirror_(features),
-      action_mirror_(actions),
-      actor_(shape(options.actor_hidden, options.activation, features.source.size(),
-                   actions.source.size())),
+      actor_(shape(options.actor_hidden, options.activation, features, actions)),
       actor_adam_(adam(options)),
-      critic_{.net = network::Mlp<float>(
-                  shape(options.critic_hidden, options.activation, features.source.size(), 1)),
-              .adam = adam(options)},
+      critic_{
+          .net = network::Mlp<float>(shape(options.critic_hidden, options.activation, features, 1)),
+          .adam = adam(options)},
       rate_(options.rate) {
   actor_.initialise(weights, 0.01);
   critic_.net.initialise(weights, 0.1);
@@ -137,21 +127,6 @@ void Learner::assess(training::ThreadPool& threads, RolloutBatch& batch) {
   const float mean = batch.advantages.mean();
   batch.advantages.array() -= mean;
   batch.advantages /= std::sqrt(batch.advantages.squaredNorm() / static_cast<float>(n)) + 1e-6f;
-
-  batch.states.conservativeResize(Eigen::NoChange, n);
-  if (!options_.mirror) return;
-  append_mirrored(feature_mirror_, n, batch.states);
-  append_mirrored(action_mirror_, n, batch.actions);
-  batch.logits.conservativeResize(Eigen::NoChange, 2 * n);
-  threads.run(kParts, [&](int part) {
-    const Eigen::Index begin = n + n * part / kParts, end = n + n * (part + 1) / kParts;
-    network::Mlp<float>::Workspace work;
-    batch.logits.middleCols(begin, end - begin) =
-        actor_.forward(batch.states.middleCols(begin, end - begin), work);
-  });
-  batch.log_probabilities.conservativeResize(2 * n);
-  batch.log_probabilities.tail(n) =
-      log_probability(batch.logits.rightCols(n), batch.actions.rightCols(n));
 }
 
 UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& random,
@@ -163,22 +138,20 @@ UpdateReport Learner::update(const RolloutBatch& batch, double age, Random& rand
   const double critic_rate = options_.rate * annealed(1, options_.final_rate, age);
   const Vector targets = critic_.scaled(batch.returns);
 
-  std::vector<int> order(static_cast<std::size_t>(n)), columns(order.size());
+  std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
   std::vector<Part> parts(kParts);
   UpdateReport report;
   for (int pass = 0; pass < options_.epochs; ++pass) {
     for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[uniform_index(random, i)]);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      columns[i] = order[i] + (options_.mirror && (random() >> 63) != 0 ? n : 0);
     report = {.steps = report.steps};
     int seen = 0, steps = 0;
     for (int begin = 0; begin + minibatch <= n; begin += minibatch, ++steps) {
       threads.run(kParts, [&](int i) {
         const int from = begin + minibatch * i / kParts, to = begin + minibatch * (i + 1) / kParts;
         Part& part = parts[static_cast<std::size_t>(i)];
-        part.gather(batch, targets, columns.data() + from, to - from);
+        part.gather(batch, targets, order.data() + from, to - from);
         part.descend_actor(actor_, clip, weight, minibatch);
         part.descend_critic(critic_.net, minibatch);
       });

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "train/environment/mirror.h"
 #include "train/ppo/rollout_batch.h"
 #include "train/ppo/scaled_critic.h"
 #include "train/training/options.h"
@@ -23,10 +22,9 @@ struct UpdateReport {
 /// The policy's logits, the critic, and what steers them.
 class Learner {
  public:
-  Learner(const Options& options, const environment::Mirror& features,
-          const environment::Mirror& actions, Random& weights);
+  Learner(const Options& options, int features, int actions, Random& weights);
 
-  /// V of the batch's states, advantages, and, if the options want it, its mirror image.
+  /// V of the batch's states, and advantages.
   void assess(training::ThreadPool& threads, RolloutBatch& batch);
 
   /// The passes of stochastic gradient descent over an assessed batch. `age` in [0, 1] is the share
@@ -45,7 +43,6 @@ class Learner {
 
  private:
   Options options_;
-  environment::Mirror feature_mirror_, action_mirror_;
   network::Mlp<float> actor_;
   network::Adam<float> actor_adam_;
   ScaledCritic critic_;

@@ -10,8 +10,7 @@ namespace stride::ppo {
 /// How a decision left its episode. A truncated one goes on unseen: its value is bootstrapped.
 enum class End : std::uint8_t { none, terminated, truncated };
 
-/// The decisions between two updates: column step · environments + slot. Twice as many columns
-/// where the mirror image of each follows behind all of them.
+/// The decisions between two updates: column step · environments + slot.
 struct RolloutBatch {
   int environments = 0, steps = 0;
   Matrix states;           // normalised features
@@ -20,9 +19,9 @@ struct RolloutBatch {
   Vector rewards;  // shaped, with the bonus of not falling
   Vector values;   // V(s) of every column and of the state after the last
   std::vector<End> ends;
-  Matrix truncated_states;     // s′ of the truncated decisions, one after the other
-  Vector truncated_values;     // V(s′) of them
-  Vector advantages, returns;  // of the decisions that were made, not of the mirrored
+  Matrix truncated_states;  // s′ of the truncated decisions, one after the other
+  Vector truncated_values;  // V(s′) of them
+  Vector advantages, returns;
 
   int decisions() const { return environments * steps; }
 };

@@ -66,13 +66,18 @@ Slot::Outcome Slot::repeat(double alive_per_s) {
 }
 
 Slot::Outcome Slot::decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
-                           Eigen::Ref<Vector> action) {
+                           Eigen::Ref<Vector> action, const environment::Mirror* mirror) {
   for (Eigen::Index i = 0; i < action.size(); ++i) {
     const double p = 1 / (1 + std::exp(-static_cast<double>(logits[i])));
     action[i] = uniform(state_.random) < p ? 1.0f : 0.0f;
-    state_.actions.push_back(static_cast<std::uint8_t>(action[i]));
   }
-  applied_ = action.cast<double>();
+  const Eigen::VectorXd drawn = action.cast<double>();
+  if (mirror != nullptr)
+    mirror->apply(drawn, applied_);
+  else
+    applied_ = drawn;
+  for (const double excitation : applied_)
+    state_.actions.push_back(static_cast<std::uint8_t>(excitation));
   const Outcome outcome = repeat(alive_per_s);
   if (outcome.end == End::none) return outcome;
   state_.episode.distance_m = environment_->distance_m();

@@ -5,6 +5,7 @@
 
 #include "shaping/potential.h"
 #include "train/environment/environment.h"
+#include "train/environment/mirror.h"
 #include "train/environment/observation.h"
 #include "train/network/policy.h"
 #include "train/ppo/rollout_batch.h"
@@ -17,7 +18,7 @@ struct SlotState {
   Random random;
   bool running = false;
   std::uint64_t episode_seed = 0;
-  std::vector<std::uint8_t> actions;  // of the episode so far, one after the other
+  std::vector<std::uint8_t> actions;  // as applied in the episode so far
   network::EpisodeSummary episode;
   double simulated_s = 0;  // since the run began
 };
@@ -27,7 +28,7 @@ class Slot {
  public:
   struct Setup {
     int action_repeat = 3;
-    double gamma = 0.99;
+    double gamma = 0.99;                   // of the shaping reward
     const Potential* potential = nullptr;  // null: no shaping
     double fall_reward = 0;
   };
@@ -42,10 +43,11 @@ class Slot {
     float reward = 0;
     End end = End::none;
   };
-  /// Draws an action from the logits into `action` and repeats it. `alive_per_s`: reward of each
-  /// simulated second. After the end of an episode features() is the end's until begin_next().
+  /// Draws an action from the logits into `action`, and repeats it, or with `mirror` its mirror
+  /// image. `alive_per_s`: reward of each simulated second. After the end of an episode features()
+  /// is the end's until begin_next().
   Outcome decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
-                 Eigen::Ref<Vector> action);
+                 Eigen::Ref<Vector> action, const environment::Mirror* mirror = nullptr);
   void begin_next();
 
   std::vector<network::EpisodeSummary> take_finished();

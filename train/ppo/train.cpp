@@ -123,17 +123,11 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
         training::curve_row(progress, simulated_s(training), evaluator.evaluate(policy, threads));
     summary.distance_m = shared.evaluation_distance_m;
     std::vector<double> row = row_of(shared, training);
-    const auto keep_as = [&](const char* name) {
-      journal.keep([&] {
-        network::save_policy(policy, training.feature_names, training.action_names,
-                             options.run.action_repeat, run / name);
-      });
-    };
-    keep_as("agent.safetensors");
-    if (summary.distance_m > progress.best_distance_m) {
-      progress.best_distance_m = summary.distance_m;
-      keep_as("best.safetensors");
-    }
+    journal.keep_policy(policy,
+                        {.features = training.feature_names,
+                         .actions = training.action_names,
+                         .action_repeat = options.run.action_repeat},
+                        summary.distance_m, progress);
     ++progress.rows;
     progress.last_row_decisions = progress.decisions;
     journal.add_row(options, progress, std::move(row));

@@ -1,6 +1,7 @@
 #include "train/ppo/training.h"
 
 #include <algorithm>
+#include <array>
 
 namespace stride::ppo {
 namespace {
@@ -18,25 +19,32 @@ Training start_training(const training::TrainOptions& options, const Potential* 
   const std::unique_ptr<environment::Environment> example = make_environment(-1);
   const environment::EnvironmentSpec& spec = example->spec();
   const environment::Observer observer = training::make_observer(options, potential, spec);
-  const environment::Mirror features = environment::mirror_by_name(observer.names());
+  std::optional<environment::RightLegAhead> symmetry;
+  environment::Mirror normalised = environment::mirror_by_name(observer.names());
+  if (options.ppo.mirror) {
+    symmetry = environment::right_leg_ahead(observer.names(), spec.action_names);
+    normalised = environment::no_mirror(observer.names().size());  // right and left legs differ
+  }
   const auto seed = static_cast<std::uint64_t>(options.run.seed);
   Random weights(stream_seed(seed, kWeights));
   Training training{.feature_names = observer.names(),
                     .action_names = spec.action_names,
                     .random = Random(stream_seed(seed, kLearner)),
-                    .learner = Learner(options.ppo, features,
-                                       environment::mirror_by_name(spec.action_names), weights),
-                    .normaliser = network::Normaliser(features),
+                    .learner = Learner(options.ppo, static_cast<int>(observer.names().size()),
+                                       static_cast<int>(spec.action_names.size()), weights),
+                    .symmetry = symmetry,
+                    .normaliser = network::Normaliser(normalised),
                     .slots = {},
                     .progress = {},
                     .sums = {}};
   for (int slot = 0; slot < options.run.environments; ++slot)
-    training.slots.emplace_back(make_environment(slot), observer,
-                                Slot::Setup{.action_repeat = options.run.action_repeat,
-                                            .gamma = options.ppo.gamma,
-                                            .potential = potential,
-                                            .fall_reward = options.reward.fall},
-                                stream_seed(seed, kFirstSlot + static_cast<std::uint64_t>(slot)));
+    training.slots.emplace_back(
+        make_environment(slot), observer,
+        Slot::Setup{.action_repeat = options.run.action_repeat,
+                    .gamma = options.shaping.discounted ? options.ppo.gamma : 1,
+                    .potential = potential,
+                    .fall_reward = options.reward.fall},
+        stream_seed(seed, kFirstSlot + static_cast<std::uint64_t>(slot)));
   return training;
 }
 
@@ -44,7 +52,8 @@ network::Policy<float> policy_of(const Training& training) {
   network::MlpShape shape = training.learner.actor().shape();
   shape.output = network::Activation::sigmoid;
   network::Policy<float> policy{.actor = network::Mlp<float>(shape),
-                                .normaliser = training.normaliser};
+                                .normaliser = training.normaliser,
+                                .symmetry = training.symmetry};
   policy.actor.parameters() = training.learner.actor().parameters();
   return policy;
 }
@@ -73,9 +82,22 @@ void collect(const training::TrainOptions& options, Training& training,
     const int begin = group * kGroup, size = std::min(kGroup, n - begin);
     network::Mlp<float>::Workspace work;
     Matrix states(features, size);
+    std::array<const environment::Mirror*, kGroup> mirrors{};  // of each slot's next action
+    Eigen::VectorXd seen(features);
+    const auto view = [&](const Eigen::VectorXd& state) {
+      const bool mirrored = training.symmetry && training.symmetry->mirrors(state);
+      if (mirrored)
+        training.symmetry->features.apply(state, seen);
+      else
+        seen = state;
+      return mirrored ? &training.symmetry->actions : nullptr;
+    };
     const auto see = [&](int first) {
-      for (int i = 0; i < size; ++i)
-        observed.col(first + i) = training.slots[static_cast<std::size_t>(begin + i)].features();
+      for (int i = 0; i < size; ++i) {
+        mirrors[static_cast<std::size_t>(i)] =
+            view(training.slots[static_cast<std::size_t>(begin + i)].features());
+        observed.col(first + i) = seen;
+      }
       states = observed.middleCols(first, size).cast<float>();
       training.normaliser.apply(states);
       batch.states.middleCols(first, size) = states;
@@ -88,12 +110,14 @@ void collect(const training::TrainOptions& options, Training& training,
         Slot& slot = training.slots[static_cast<std::size_t>(begin + i)];
         batch.logits.col(column) = logits.col(i);
         const auto [reward, end] =
-            slot.decide(batch.logits.col(column), alive_per_s, batch.actions.col(column));
+            slot.decide(batch.logits.col(column), alive_per_s, batch.actions.col(column),
+                        mirrors[static_cast<std::size_t>(i)]);
         batch.rewards[column] = reward;
         batch.ends[static_cast<std::size_t>(column)] = end;
         if (end == End::truncated) {
           Matrix& state = after[static_cast<std::size_t>(column)];
-          state = slot.features().cast<float>();
+          view(slot.features());
+          state = seen.cast<float>();
           training.normaliser.apply(state);
         }
         if (end != End::none) slot.begin_next();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "train/network/normaliser.h"
@@ -20,6 +21,8 @@ struct Training {
   std::vector<std::string> feature_names, action_names;
   Random random;  // of the learner
   Learner learner;
+  /// With ppo.mirror: states, normaliser and actions are those of the agent's view.
+  std::optional<environment::RightLegAhead> symmetry;
   network::Normaliser normaliser;
   std::vector<Slot> slots;
   training::Progress progress;

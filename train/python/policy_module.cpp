@@ -49,10 +49,8 @@ class AnyPolicy {
     Rows actions(features.rows(), policy.actor.shape().outputs);
     typename network::Mlp<Scalar>::Workspace work;
     for (Eigen::Index i = 0; i < features.rows(); ++i) {
-      typename network::Mlp<Scalar>::Matrix input =
-          features.row(i).transpose().template cast<Scalar>();
-      policy.normaliser.apply(input);
-      actions.row(i) = policy.actor.forward(input, work).col(0).transpose().template cast<double>();
+      const Eigen::VectorXd seen = features.row(i).transpose();
+      actions.row(i) = policy.act(seen, work).transpose();
     }
     return actions;
   }

@@ -21,24 +21,6 @@ constexpr Eigen::Index kLongestEpisode = 1'000'000;  // decisions
 template <typename Scalar>
 using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-std::string to_text(const Random& random) {
-  std::ostringstream out;
-  out << random;
-  return std::move(out).str();
-}
-
-Random random_from(const std::string& text, const std::string& file) {
-  Random random;
-  std::istringstream in(text);
-  in >> random;
-  // The last number of its state is the index of the next one; the library does not check it.
-  std::istringstream last(text.substr(text.find_last_of(' ') + 1));
-  std::size_t next = 0;
-  require(!in.fail() && last >> next && next <= Random::state_size,
-          "{}: the state of a random number generator cannot be read", file);
-  return random;
-}
-
 /// Reads a vector of n · unit elements, 0 ≤ n ≤ `most`.
 template <typename Scalar>
 Vector<Scalar> vector_from(const network::Tensors& tensors, const std::string& name,
@@ -209,6 +191,24 @@ void get_version_1(const network::Tensors& tensors, Progress& progress) {
 }
 
 }  // namespace
+
+std::string to_text(const Random& random) {
+  std::ostringstream out;
+  out << random;
+  return std::move(out).str();
+}
+
+Random random_from(const std::string& text, const std::string& file) {
+  Random random;
+  std::istringstream in(text);
+  in >> random;
+  // The last number of its state is the index of the next one; the library does not check it.
+  std::istringstream last(text.substr(text.find_last_of(' ') + 1));
+  std::size_t next = 0;
+  require(!in.fail() && last >> next && next <= Random::state_size,
+          "{}: the state of a random number generator cannot be read", file);
+  return random;
+}
 
 fs::path checkpoint_file(const fs::path& run) { return run / "checkpoint.safetensors"; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "train/training/training.h"
 
@@ -16,6 +17,11 @@ void save_checkpoint(const Training<Scalar>& training, const std::filesystem::pa
 /// its defect; the training is then unusable.
 template <typename Scalar>
 void load_checkpoint(Training<Scalar>& training, const std::filesystem::path& run);
+
+/// The state of a generator as it stands in a checkpoint.
+std::string to_text(const Random& random);
+/// Throws Error naming `file`, where the text was read, if it is no state.
+Random random_from(const std::string& text, const std::string& file);
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& run);
 

@@ -41,6 +41,20 @@ void require_model(const Potential& p, const std::string& file, const std::strin
           file, p.model, model.name);
 }
 
+/// The weight with which Φ of the demonstrated motion is higher in its own time than at any other
+/// by that share of the reward of a stride at the demonstrated speed.
+void weigh_by_strides(const TrainOptions& options, Potential& potential) {
+  require(potential.speed_m_s > 0,
+          "shaping.stride_share: the potential does not know the speed of its clip; use "
+          "shaping.scale");
+  const double stride_m = potential.speed_m_s * potential.period_s;
+  const double reward_per_m = options.run.learner == "ddpg" ? options.reward.scale : 1;
+  potential.weight = 1;
+  const double contrast = potential.contrast();
+  require(contrast > 0, "shaping.stride_share: the potential's keyframes are all the same");
+  potential.weight = options.shaping.stride_share * stride_m * reward_per_m / contrast;
+}
+
 }  // namespace
 
 Demonstration load_demonstration(const fs::path& potential, const fs::path& reference,
@@ -81,6 +95,7 @@ Demonstration load_run_demonstration(const TrainOptions& options, const fs::path
   if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
   if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
   if (!shaping.index.empty()) potential.index = potential_index(shaping.index);
+  if (shaping.stride_share > 0) weigh_by_strides(options, potential);
   return demonstration;
 }
 

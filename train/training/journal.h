@@ -10,6 +10,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
+#include "train/network/policy.h"
 #include "train/training/training.h"
 
 namespace stride::training {
@@ -23,6 +24,23 @@ class Journal {
 
   /// A row of the curve, which has a column evaluation_distance_m.
   void add_row(const TrainOptions& options, const Progress& progress, std::vector<double> row);
+
+  /// Writes the policy to agent.safetensors, and if it came farther than any before also to
+  /// best.safetensors; then progress.best_distance_m is that distance.
+  template <typename Scalar>
+  void keep_policy(const network::Policy<Scalar>& policy, const network::PolicyNames& names,
+                   double distance_m, Progress& progress) {
+    const auto keep_as = [&](const char* name) {
+      keep([&] {
+        network::save_policy(policy, names.features, names.actions, names.action_repeat,
+                             run_ / name);
+      });
+    };
+    keep_as("agent.safetensors");
+    if (distance_m <= progress.best_distance_m) return;
+    progress.best_distance_m = distance_m;
+    keep_as("best.safetensors");
+  }
 
   /// Does what writes to the disk; a failure is reported, and training goes on.
   template <typename Write>

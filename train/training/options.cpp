@@ -97,6 +97,11 @@ std::vector<Field> fields(TrainOptions& o) {
        &o.environment.few_share, 0, 1},
       {"environment.late_positions", "under nips2017: observed bodies are late now and then",
        &o.environment.late_positions},
+      {"environment.raw_fibres", "under nips2017: fibres are not in equilibrium at the start",
+       &o.environment.raw_fibres},
+      {"environment.drop_contacts",
+       "under nips2017: a contact that pulls drops the next one's force",
+       &o.environment.drop_contacts},
       {"environment.accuracy", "of the integration", &o.environment.accuracy, 1e-12, 1},
       {"environment.training_accuracy", "of the integration in training; 0: the same",
        &o.environment.training_accuracy, 0, 0.1},
@@ -126,6 +131,12 @@ std::vector<Field> fields(TrainOptions& o) {
       {"shaping.source", "where that file came from: the film finds its video there",
        &o.shaping.source},
       {"shaping.scale", "on the file's weight", &o.shaping.scale, 0},
+      {"shaping.stride_share",
+       "if > 0, instead of scale: being in step with the clip is worth this share of a stride's "
+       "distance",
+       &o.shaping.stride_share, 0, 1000},
+      {"shaping.discounted", "F with the agent's discount; false: with 1, which keeps no theorem",
+       &o.shaping.discounted},
       {"shaping.epsilon_m", "bounds 1/d; -1: the file's", &o.shaping.epsilon_m, -1},
       {"shaping.function", "empty: the file's", &o.shaping.function, -kInf, kInf,
        names_or_empty(kInverseDistances)},
@@ -197,7 +208,7 @@ std::vector<Field> fields(TrainOptions& o) {
        &o.ppo.alive_per_s},
       {"ppo.final_alive_per_s", "after alive_decisions", &o.ppo.final_alive_per_s},
       {"ppo.alive_decisions", "over which it falls, linearly", &o.ppo.alive_decisions, 1},
-      {"ppo.mirror", "each pass sees each decision or its mirror image", &o.ppo.mirror},
+      {"ppo.mirror", "every state is seen with the right leg ahead", &o.ppo.mirror},
   };
 }
 

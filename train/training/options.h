@@ -37,6 +37,8 @@ struct EnvironmentOptions {
   int max_obstacles = 3;
   double flat_share = 0, few_share = 0;  // of training episodes: no obstacles, three at most
   bool late_positions = true;            // under nips2017, as OpenSim observes bodies
+  bool raw_fibres = true;                // likewise: at the start not in equilibrium
+  bool drop_contacts = true;             // likewise: one that pulls drops the next
   double accuracy = 1e-3;                // of the integration
   double training_accuracy = 0;          // of training episodes; 0: the same
   std::string reference;                 // calibrated run, as it was copied into the run folder
@@ -51,11 +53,13 @@ struct RewardOptions {
 };
 
 struct ShapingOptions {
-  std::string potential;   // file, as it was copied into the run folder; empty: no shaping
-  std::string source;      // where that file came from; the source video is searched there
-  double scale = 0.008;    // factor on the file's weight; PF3 with weight 1 outweighs the reward
+  std::string potential;    // file, as it was copied into the run folder; empty: no shaping
+  std::string source;       // where that file came from; the source video is searched there
+  double scale = 0.008;     // factor on the file's weight; PF3 with weight 1 outweighs the reward
+  double stride_share = 0;  // if > 0, instead of scale: what being in step is worth, in strides
+  bool discounted = true;  // F = γ Φ′ − Φ; false: Φ′ − Φ, which keeps no theorem (Jeon et al.)
   double epsilon_m = 0.1;  // instead of the file's; -1: the file's
-  std::string function;    // pf1, pf2, pf3; empty: the file's
+  std::string function;    // pf1 … pf4; empty: the file's
   std::string index;       // time, nearest; empty: the file's
 };
 
@@ -82,7 +86,7 @@ struct PpoOptions {
   double gradient_norm_limit = 0.5;
   double alive_per_s = 2, final_alive_per_s = 0.3;  // reward of not having fallen
   double alive_decisions = 600'000;                 // over which it falls
-  bool mirror = true;  // each pass sees each decision or its mirror image
+  bool mirror = true;                               // every state is seen with the right leg ahead
 };
 
 /// Everything a run depends on. Defaults are those of the preset `stride`.

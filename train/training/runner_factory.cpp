@@ -19,6 +19,8 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options,
   runner.max_obstacles = options.max_obstacles;
   runner.accuracy = options.accuracy;
   runner.late_positions = options.late_positions;
+  runner.raw_fibres = options.raw_fibres;
+  runner.drop_contacts = options.drop_contacts;
   if (demonstration.potential) runner.foot = demonstration.potential->foot;
 
   return [model, runner, reference = demonstration.reference, options](int slot) {

@@ -47,6 +47,7 @@ std::string learn(const TrainOptions& options, bool shaped, std::int64_t updates
                                    .gamma = options.agent.gamma,
                                    .reward_scale = options.reward.scale,
                                    .shaped = shaped,
+                                   .discounted = options.shaping.discounted,
                                    .mirror = options.replay.mirror};
   Progress::Sums& sums = training.progress.sums;
   const double age = std::min(
@@ -165,17 +166,11 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     const network::Policy<Scalar> policy = policy_of(training, options);
     const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
     summary.distance_m = row.evaluation_distance_m;
-    const auto keep_as = [&](const char* name) {
-      journal.keep([&] {
-        network::save_policy(policy, training.feature_names, training.action_names,
-                             options.run.action_repeat, run / name);
-      });
-    };
-    keep_as("agent.safetensors");
-    if (summary.distance_m > progress.best_distance_m) {
-      progress.best_distance_m = summary.distance_m;
-      keep_as("best.safetensors");
-    }
+    journal.keep_policy(policy,
+                        {.features = training.feature_names,
+                         .actions = training.action_names,
+                         .action_repeat = options.run.action_repeat},
+                        summary.distance_m, progress);
     progress.sums = {};
     journal.add_row(options, progress, row.values());
   };

@@ -67,7 +67,8 @@ Expected expected(const ddpg::ReplayBuffer<double>& buffer, std::int64_t round, 
     const bool fell = record.outcome == ddpg::Outcome::terminated;
     x.reward += gamma_power * options.reward_scale * record.reward;
     if (options.shaped)
-      x.reward += gamma_power * shaping_reward(phi(round), phi(round + 1), options.gamma, fell);
+      x.reward += gamma_power * shaping_reward(phi(round), phi(round + 1),
+                                               options.discounted ? options.gamma : 1, fell);
     gamma_power *= options.gamma;
     ++round;
     x.discount = fell ? 0 : gamma_power;
@@ -81,12 +82,14 @@ TEST(ReplayBuffer, SamplesAreTheirDefinitionOverSeveralStepsWithShapingFallsAndT
   Random random(11);
   const ddpg::ReplayBuffer<double> buffer = filled(200, 100'000, random);
   for (const int n_step : {1, 3, 7})
-    for (const bool shaped : {false, true}) {
+    for (const auto& [shaped, discounted] :
+         {std::pair{false, true}, std::pair{true, true}, std::pair{true, false}}) {
       const ddpg::SampleOptions options{.batch = 2000,
                                         .n_step = n_step,
                                         .gamma = 0.93,
                                         .reward_scale = 10,
                                         .shaped = shaped,
+                                        .discounted = discounted,
                                         .mirror = true};
       ddpg::Batch<double> batch;
       buffer.sample(options, random, batch);

@@ -17,6 +17,20 @@ TEST(Mirror, SwapsTheSidesInNamesAndOnlyThose) {
   EXPECT_EQ(environment::mirrored_name("roll_rate"), "roll_rate");
 }
 
+TEST(RightLegAhead, MirrorsWhatHasItsLeftHipFlexedFurther) {
+  const auto symmetry = environment::right_leg_ahead(
+      {"knee_r", "hip_flexion_l", "hip_flexion_r", "knee_l"}, {"push_l", "push_r"});
+  Eigen::VectorXd x(4), seen(4);
+  x << 1, 0.5, 0.2, 3;
+  EXPECT_TRUE(symmetry.mirrors(x));
+  symmetry.features.apply(x, seen);
+  EXPECT_EQ(seen, (Eigen::VectorXd(4) << 3, 0.2, 0.5, 1).finished());
+  EXPECT_FALSE(symmetry.mirrors(seen));
+  x[1] = x[2];
+  EXPECT_FALSE(symmetry.mirrors(x)) << "standing is seen as it is";
+  EXPECT_ERROR(environment::right_leg_ahead({"x"}, {"push_l", "push_r"}), "hip_flexion_r");
+}
+
 TEST(Mirror, IsItsOwnInverse) {
   const environment::Mirror mirror = environment::mirror_by_name(
       {"hip_r", "pelvis", "knee_l_x", "hip_l", "phase_sin", "phase_cos", "knee_r_x"});

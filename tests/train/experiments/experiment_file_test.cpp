@@ -5,6 +5,7 @@
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
+#include "train/experiments/experiment.h"
 
 namespace stride {
 namespace {
@@ -22,7 +23,7 @@ TEST(ExperimentFile, GivesTheArmsInTheOrderOfTheFile) {
   const experiments::ExperimentFile experiment =
       load(folder, std::string(kHeading) + "seeds = 3\n[z]\npotential = \"\"\n[a]\n" +
                        "potential = \"../p/h.potential.json\"\nshaping.index = \"nearest\"\n" +
-                       "agent.actor_hidden = [32, 16]\n");
+                       "agent.actor_hidden = [32, 16]\ncurves = \"../z\"\n");
   EXPECT_EQ(experiment.title, "T");
   EXPECT_EQ(experiment.decisions, 4000);
   EXPECT_EQ(experiment.seeds, 3);
@@ -30,6 +31,7 @@ TEST(ExperimentFile, GivesTheArmsInTheOrderOfTheFile) {
   EXPECT_EQ(experiment.arms[0].name, "z");
   EXPECT_TRUE(experiment.arms[0].potential.empty());
   EXPECT_EQ(experiment.arms[1].potential, (folder / "../p/h.potential.json").lexically_normal());
+  EXPECT_EQ(experiment.arms[1].curves, (folder / "../z").lexically_normal());
   EXPECT_EQ(experiment.arms[1].train.shaping.index, "nearest");
   EXPECT_EQ(experiment.arms[1].train.agent.actor_hidden, (std::vector<int>{32, 16}));
   EXPECT_EQ(experiment.arms[1].train.run.decisions, 4000);
@@ -44,6 +46,25 @@ TEST(ExperimentFile, SettingsOfTheCommandLineYieldToThoseOfAnArm) {
   EXPECT_EQ(experiment.arms[0].train.agent.gamma, 0.9);
   EXPECT_EQ(experiment.arms[1].train.agent.gamma, 0.95);
   EXPECT_EQ(experiment.decisions, 100);
+}
+
+TEST(ExperimentFile, ClaimsThatOneArmComesFartherThanAnother) {
+  const TemporaryFolder folder;
+  const std::string arms = "[a]\npotential = \"\"\n[b]\npotential = \"\"\n";
+  const experiments::ExperimentFile usual = load(folder, kHeading + arms);
+  EXPECT_EQ(usual.claim.better, "b");
+  EXPECT_EQ(usual.claim.than, "a");
+  EXPECT_EQ(usual.claim.at, 1);
+  const experiments::ExperimentFile other = load(
+      folder, std::string(kHeading) + "claim = \"c\"\nbetter = \"a\"\nthan = \"b\"\nat = 0.5\n" +
+                  "clip = \"../h.calibrated.csv\"\n" + arms);
+  EXPECT_EQ(other.claim.text, "c");
+  EXPECT_EQ(other.claim.better, "a");
+  EXPECT_EQ(other.claim.at, 0.5);
+  EXPECT_EQ(other.clip, (folder / "../h.calibrated.csv").lexically_normal());
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "better = \"z\"\n" + arms), "which is no arm");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "at = 0.4\n" + arms),
+               "at = 0.4: must be one of");
 }
 
 TEST(ExperimentFile, ErrorsNameFileKeyAndCure) {
@@ -61,6 +82,34 @@ TEST(ExperimentFile, ErrorsNameFileKeyAndCure) {
   EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = 0\n" + arm), "seeds");
   EXPECT_ERROR(experiments::experiment_file("baseline-vs-nothing"),
                "must be one of baseline-vs-shaping");
+}
+
+/// The paper's nine figures, each with a claim about its arms; what an arm takes from another
+/// experiment has that experiment's settings.
+TEST(ExperimentFile, ThePapersFiguresAreAGroup) {
+  const auto group = experiments::experiment_group("figures/all");
+  EXPECT_EQ(group.size(), 9u);
+  for (const std::filesystem::path& file : group) {
+    SCOPED_TRACE(file.string());
+    const experiments::ExperimentFile experiment = experiments::load_experiment(file);
+    EXPECT_FALSE(experiment.claim.text.empty());
+    EXPECT_EQ(experiment.seeds, 5);
+    EXPECT_TRUE(std::filesystem::exists(experiment.clip));
+    for (const experiments::ExperimentArm& arm : experiment.arms) {
+      EXPECT_TRUE(arm.potential.empty() || std::filesystem::exists(arm.potential)) << arm.name;
+      if (arm.curves.empty()) continue;
+      const experiments::ExperimentFile other =
+          experiments::load_experiment(arm.curves.parent_path() / "experiment.toml");
+      const auto same = std::ranges::find(other.arms, arm.curves.filename().string(),
+                                          &experiments::ExperimentArm::name);
+      ASSERT_NE(same, other.arms.end()) << arm.name;
+      EXPECT_EQ(training::to_toml(same->train, ""), training::to_toml(arm.train, "")) << arm.name;
+      EXPECT_EQ(same->potential, arm.potential) << arm.name;
+    }
+    EXPECT_NE(experiments::verdict_row(file).find(experiment.claim.text), std::string::npos);
+  }
+  EXPECT_TRUE(experiments::experiment_group("baseline-vs-shaping").empty());
+  EXPECT_ERROR(experiments::experiment_group("nothing/all"), "there is no such group");
 }
 
 TEST(ExperimentFile, TheOnesThatComeWithTheProgramCanBeRead) {

@@ -96,6 +96,13 @@ TEST(Plot, ErrorsNameTheRunAndTheColumn) {
                "--against time");
 }
 
+experiments::ExperimentFile named(const std::string& title, std::int64_t decisions) {
+  experiments::ExperimentFile experiment;
+  experiment.title = title;
+  experiment.decisions = decisions;
+  return experiment;
+}
+
 TEST(Experiment, DistancesAreThoseOfTheTwentiethOfTheBudgetThatEndsThere) {
   TemporaryFolder folder;
   write_run(folder / "arm" / "1", 1);
@@ -116,7 +123,7 @@ TEST(Experiment, WhereNothingWasEvaluatedNearAShareItIsTheLastBefore) {
   EXPECT_DOUBLE_EQ(results[0].distance_m[3][0], 4);  // half of it: 4277 to 4747
   const auto short_budget =
       experiments::results_of(experiments::arms_of({folder / "arm" / "1"}), -1);
-  EXPECT_THAT(experiments::experiment_report("T", short_budget, -1, ""),
+  EXPECT_THAT(experiments::experiment_report(named("T", -1), short_budget, ""),
               ::testing::HasSubstr("| arm | – |"));
 }
 
@@ -130,8 +137,31 @@ TEST(Experiment, TimesAreThoseOfTheFirstEvaluationThatReachedADistance) {
   EXPECT_EQ(results[0].reached[0][0]->wall_s, 300);
   EXPECT_EQ(results[0].reached[1][1]->decisions, 4000);  // 10 m: 12 is the first
   EXPECT_FALSE(results[0].reached[2][0]);                // 15 m: ends at 10
-  EXPECT_THAT(experiments::experiment_report("Title", results, 10'000, "stride experiment"),
+  EXPECT_THAT(experiments::experiment_report(named("Title", 10'000), results, "stride experiment"),
               ::testing::HasSubstr("| arm | 4 ± 1 k; 3.5 ± 1.5 min"));
+}
+
+experiments::ArmResult ended_at(const std::string& label, const std::vector<double>& distances_m) {
+  experiments::ArmResult arm;
+  arm.label = label;
+  arm.distance_m.back() = distances_m;
+  return arm;
+}
+
+TEST(Experiment, AVerdictNeedsAnIntervalThatExcludesOne) {
+  const auto verdict = [](const std::vector<double>& better) {
+    return experiments::verdict_on({.text = "b is better", .better = "b", .than = "a"},
+                                   {ended_at("a", {10, 11, 12, 10, 9}), ended_at("b", better)});
+  };
+  EXPECT_EQ(verdict({20, 23, 24, 19, 18}).word, "holds");
+  EXPECT_EQ(verdict({5, 5, 6, 5, 4}).word, "the opposite holds");
+  EXPECT_EQ(verdict({20, 5, 14, 9, 10}).word, "undecided");
+  EXPECT_EQ(verdict({-1, 5, 14, 9, 10}).word, "undecided") << "no ratio";
+  const auto [ratio, pairs, word] = verdict({20, 23, 24, 19, 18});
+  EXPECT_EQ(pairs, 5u);
+  EXPECT_GT(ratio.bootstrap_low, ratio.low) << "five pairs: Student's is the wider one";
+  EXPECT_LT(ratio.bootstrap_high, ratio.high);
+  EXPECT_NEAR(ratio.detectable(), ratio.ratio / ratio.low, 1e-12);
 }
 
 TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {

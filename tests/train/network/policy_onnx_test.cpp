@@ -8,7 +8,7 @@ namespace stride {
 namespace {
 
 const network::PolicyNames kNames{
-    {"hip_r", "hip_l", "pelvis", "phase_sin", "phase_cos"}, {"r", "l"}, 3};
+    {"hip_flexion_r", "hip_flexion_l", "pelvis", "phase_sin", "phase_cos"}, {"r", "l"}, 3};
 
 template <typename Scalar>
 network::Policy<Scalar> some_policy(network::Activation activation, bool layer_norm,
@@ -41,17 +41,15 @@ double difference(const network::Policy<Scalar>& policy) {
   typename network::Mlp<Scalar>::Workspace work;
   double largest = 0;
   for (int i = 0; i < 100; ++i) {
-    typename network::Mlp<Scalar>::Matrix input(5, 1);
+    Eigen::VectorXd input(5);
     cv::Mat features(1, 5, CV_32F);
     for (int k = 0; k < 5; ++k)
-      features.at<float>(k) =
-          static_cast<float>(input(k) = static_cast<Scalar>(20 * normal(random)));
+      input[k] = features.at<float>(k) = static_cast<float>(20 * normal(random));
     net.setInput(features);
     const cv::Mat actions = net.forward();
-    policy.normaliser.apply(input);
-    const auto& expected = policy.actor.forward(input, work);
+    const Eigen::VectorXd expected = policy.act(input, work);
     for (int k = 0; k < 2; ++k)
-      largest = std::max(largest, std::abs(double(actions.at<float>(k)) - double(expected(k))));
+      largest = std::max(largest, std::abs(double(actions.at<float>(k)) - expected[k]));
   }
   return largest;
 }
@@ -68,10 +66,17 @@ TEST(PolicyOnnx, OpenCvActsAsWeDoWhateverTheActivation) {
   EXPECT_LT(difference(some_policy<float>(network::Activation::elu, true, {})), 2e-5);
 }
 
+TEST(PolicyOnnx, OpenCvMirrorsAsWeDo) {
+  network::Policy<float> policy = some_policy<float>(network::Activation::tanh, false, {7, 6});
+  policy.symmetry = environment::right_leg_ahead(kNames.features, kNames.actions);
+  EXPECT_LT(difference(policy), 2e-5);
+}
+
 TEST(PolicyOnnx, NamesItsFeaturesAndActions) {
   const std::string bytes =
       network::to_onnx(some_policy<float>(network::Activation::elu, true, {4}), kNames);
-  EXPECT_NE(bytes.find("hip_r,hip_l,pelvis,phase_sin,phase_cos"), std::string::npos);
+  EXPECT_NE(bytes.find("hip_flexion_r,hip_flexion_l,pelvis,phase_sin,phase_cos"),
+            std::string::npos);
   EXPECT_NE(bytes.find("action_repeat"), std::string::npos);
 }
 

@@ -9,7 +9,7 @@
 namespace stride {
 namespace {
 
-const std::vector<std::string> kFeatures{"hip_r", "hip_l", "pelvis"};
+const std::vector<std::string> kFeatures{"hip_flexion_r", "hip_flexion_l", "pelvis"};
 const std::vector<std::string> kActions{"push_r", "push_l"};
 
 network::Policy<float> some_policy() {
@@ -42,13 +42,31 @@ TEST(PolicyFile, GivesTheSameActions) {
   EXPECT_EQ(read.normaliser.inverse_sd(), policy.normaliser.inverse_sd());
 }
 
+TEST(PolicyFile, OfASymmetricPolicyMirrorsAfterReadingToo) {
+  TemporaryFolder folder;
+  const auto file = folder / "agent.safetensors";
+  network::Policy<float> policy = some_policy();
+  policy.symmetry = environment::right_leg_ahead(kFeatures, kActions);
+  network::save_policy(policy, kFeatures, kActions, 3, file);
+  EXPECT_EQ(network::load_tensors(file).meta("version"), "2");
+  const auto read = network::load_policy<float>(file, kFeatures, kActions);
+  network::Mlp<float>::Workspace work;
+  const Eigen::Vector3d right_ahead(0.5, -0.1, 12), left_ahead(-0.1, 0.5, 12);
+  const Eigen::VectorXd right = read.act(right_ahead, work), left = read.act(left_ahead, work);
+  EXPECT_EQ(right, policy.act(right_ahead, work));
+  EXPECT_EQ(left, policy.act(left_ahead, work));
+  EXPECT_NE(right[0], right[1]) << "the test could not tell right from left";
+  EXPECT_EQ(left[0], right[1]);
+  EXPECT_EQ(left[1], right[0]);
+}
+
 /// The action by the documented formula, as another program would compute it.
 TEST(PolicyFile, IsWhatItsDescriptionSays) {
   TemporaryFolder folder;
   const network::Policy<float> policy = some_policy();
   network::save_policy(policy, kFeatures, kActions, 3, folder / "agent.safetensors");
   const network::Tensors file = network::load_tensors(folder / "agent.safetensors");
-  EXPECT_EQ(file.meta("features"), "hip_r,hip_l,pelvis");
+  EXPECT_EQ(file.meta("features"), "hip_flexion_r,hip_flexion_l,pelvis");
   EXPECT_EQ(file.meta("action_repeat"), "3");
   Eigen::VectorXd mean(3), inverse_sd(3), x = Eigen::Vector3d(0.5, 1, 12);
   file.get("normaliser.mean", mean);

@@ -5,9 +5,6 @@
 namespace stride::ppo {
 namespace {
 
-const environment::Mirror kFeatures = environment::mirror_by_name({"a_r", "a_l", "b"});
-const environment::Mirror kActions = environment::mirror_by_name({"push_r", "push_l"});
-
 Options small() {
   Options options;
   options.actor_hidden = options.critic_hidden = {16};
@@ -46,7 +43,7 @@ struct Learned {
 
 Learned learn(int size) {
   Random weights(1), random(2), chance(3);
-  Learner learner(small(), kFeatures, kActions, weights);
+  Learner learner(small(), 3, 2, weights);
   training::ThreadPool threads(size);
   Learned learned{};
   for (int i = 0; i < 40; ++i) {
@@ -71,24 +68,6 @@ TEST(Learner, DoesNotDependOnTheNumberOfThreads) {
   const Learned one = learn(1), three = learn(3);
   EXPECT_EQ(one.actor, three.actor);
   EXPECT_EQ(one.critic, three.critic);
-}
-
-TEST(Learner, MirroredDecisionsAreThoseOfTheMirroredState) {
-  Random weights(1), chance(3);
-  const Learner fresh(small(), kFeatures, kActions, weights);
-  Learner learner = fresh;
-  RolloutBatch batch = bandit(learner, chance);
-  training::ThreadPool threads(1);
-  learner.assess(threads, batch);
-  ASSERT_EQ(batch.states.cols(), 512);
-  network::Mlp<float>::Workspace work;
-  const Matrix logits = fresh.actor().forward(batch.states, work);
-  EXPECT_LT((logits - batch.logits).cwiseAbs().maxCoeff(), 1e-6f);
-  for (int i = 0; i < 256; ++i) {
-    EXPECT_EQ(batch.states(0, i), batch.states(1, 256 + i));
-    EXPECT_EQ(batch.states(2, i), batch.states(2, 256 + i));
-    EXPECT_EQ(batch.actions(0, i), batch.actions(1, 256 + i));
-  }
 }
 
 TEST(ScaledCritic, KeepsItsValuesWhenItsScaleMoves) {

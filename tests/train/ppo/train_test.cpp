@@ -32,6 +32,7 @@ training::TrainOptions small_run() {
   options.ppo.horizon = 40;
   options.ppo.minibatch = 100;
   options.ppo.gamma = 0.95;
+  options.ppo.mirror = false;  // there is no hip
   options.ppo.alive_per_s = options.ppo.final_alive_per_s = 0;
   options.shaping.scale = 1;
   return options;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/throws.h"
+#include "train/rollout/clip_likeness.h"
 #include "train/rollout/human_gait.h"
 #include "train/rollout/rollout.h"
 
@@ -58,6 +60,28 @@ TEST_F(Clockwork, BothLegsAtOnceAreAHop) {
   EXPECT_NEAR(rollout::gait_of(rollout_, model_).leg_phase, 0, 1e-9);
   EXPECT_THAT(rollout::leg_pattern(0), ::testing::HasSubstr("hops"));
   EXPECT_THAT(rollout::leg_pattern(0.48), ::testing::HasSubstr("turns"));
+}
+
+/// A clip at twice the cadence with the same angles by phase is the same run; one with a knee 20
+/// degrees further has one angle of six outside the band.
+TEST_F(Clockwork, IsLikeAClipWithItsAnglesAtEachPhase) {
+  const auto angle = [](double phase) { return 0.5 * std::sin(2 * std::numbers::pi * phase); };
+  for (rollout::RolloutFrame& frame : rollout_.frames)
+    for (std::size_t k = 3; k < 9; ++k) frame.state.q[k] = angle(frame.state.time_s / 0.7);
+  CalibratedTrajectory clip;
+  for (int i = 0; i < 70; ++i) {
+    CalibratedSample& sample = clip.samples.emplace_back();
+    sample.phase = i / 35.0 - std::floor(i / 35.0);
+    for (std::size_t k = 3; k < 9; ++k) sample.coordinates[k] = angle(sample.phase);
+  }
+  const rollout::ClipLikeness same = rollout::likeness(rollout_, clip, model_);
+  EXPECT_LT(same.angle_rms_deg, 4);  // a hundredth of a second and a fortieth of a stride
+  EXPECT_EQ(same.inside_share, 1);
+  for (CalibratedSample& sample : clip.samples) sample.coordinates[4] += std::numbers::pi / 9;
+  const rollout::ClipLikeness other = rollout::likeness(rollout_, clip, model_);
+  EXPECT_NEAR(other.angle_rms_deg, 20 / std::sqrt(6.0), 1);
+  EXPECT_NEAR(other.inside_share, 5.0 / 6, 0.02);
+  EXPECT_TRUE(std::isnan(rollout::likeness(rollout_, clip, model_, 100).inside_share));
 }
 
 TEST(HumanGait, HoldsTheRunnersThatItIsOf) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -103,6 +105,28 @@ TEST_F(DemonstrationTest, TheRunFolderHoldsCopiesAndNamesThem) {
   EXPECT_EQ(loaded.potential->epsilon_m, 0.2);
   EXPECT_EQ(loaded.potential->function, inverse_distance("pf1"));
   EXPECT_EQ(loaded.potential->index, PotentialIndex::nearest);
+}
+
+/// Being in step is worth the same share of a stride's reward whatever function and clip are.
+TEST_F(DemonstrationTest, WeighsByTheRewardOfAStride) {
+  training::TrainOptions options;
+  options.environment.reference_share = 0;
+  options.shaping.stride_share = 0.1;
+  Potential potential = some_potential();
+  potential.speed_m_s = 4;
+  for (Keyframe& keyframe : potential.keyframes)
+    keyframe.pose[PosePart::knee_r].x() += 0.1 * std::cos(2 * std::numbers::pi * keyframe.phase);
+  training::save({.potential = potential, .reference = {}}, folder / "run", options);
+  const double stride_m = 4 * potential.period_s;
+  for (const std::string function : {"pf1", "pf3", "pf4"}) {
+    options.shaping.function = function;
+    options.run.learner = "ddpg";
+    const auto ddpg = training::load_run_demonstration(options, folder / "run").potential;
+    EXPECT_NEAR(ddpg->contrast(), 0.1 * stride_m * options.reward.scale, 1e-9) << function;
+    options.run.learner = "ppo";
+    const auto ppo = training::load_run_demonstration(options, folder / "run").potential;
+    EXPECT_NEAR(ppo->contrast(), 0.1 * stride_m, 1e-9) << function;
+  }
 }
 
 TEST_F(DemonstrationTest, ABaselineHasNothingOfAVideo) {

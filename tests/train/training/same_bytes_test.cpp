@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "extract/io/file.h"
+#include "tests/support/temporary_folder.h"
+#include "train/ppo/train_run.h"
+#include "train/training/runner_factory.h"
+
+namespace stride {
+namespace {
+
+/// The curve of a short run of a preset is these bytes on every processor with AVX2, by the
+/// compiler and the C library that the project is built with (GCC 12 and glibc 2.36, optimised). A
+/// change of physics, learner or curve changes them: then look at the curves, and put the new hash
+/// here.
+std::string curve_hash(const char* preset, const std::vector<std::string>& settings) {
+  TemporaryFolder folder;
+  training::TrainOptions options;
+  training::read_toml(training::preset_file(preset), options);
+  for (const std::string& setting : settings) training::set_option(setting, options);
+  training::make_run_folder(
+      options,
+      training::load_demonstration(STRIDE_SOURCE_DIR "/train/results/human.potential.json", {},
+                                   options.environment),
+      folder / "run");
+  const std::atomic<bool> stop = false;
+  train_run(folder / "run",
+            training::make_runners(options.environment,
+                                   training::load_run_demonstration(options, folder / "run")),
+            stop, nullptr);
+  return sha256_of_file(folder / "run" / "curve.csv");
+}
+
+class SameBytes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#if !defined(NDEBUG) || defined(__clang__) || !defined(__GNUC__) || __GNUC__ != 12
+    GTEST_SKIP() << "the hashes are those of GCC 12, optimised";
+#endif
+  }
+};
+
+TEST_F(SameBytes, OfDdpg) {
+  EXPECT_EQ(curve_hash("stride", {"run.decisions=2000", "run.evaluate_every=500", "run.warm_up=300",
+                                  "run.threads=2"}),
+            "68d292cb1bff4b79f7c3c5daf7e586fcd7d794b6363f63b6fe7914e5a03b690c");
+}
+
+TEST_F(SameBytes, OfPpo) {
+  EXPECT_EQ(curve_hash("ppo", {"run.decisions=12000", "run.evaluate_every=4000", "run.threads=2",
+                               "shaping.scale=0.004"}),
+            "fdefdffca9de9981e4a3cfe5b0d868cb4bb914eb5a7d16829816a2aa97858642");
+}
+
+}  // namespace
+}  // namespace stride
