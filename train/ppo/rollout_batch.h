@@ -19,8 +19,10 @@ struct RolloutBatch {
   Vector rewards;  // shaped, with the bonus of not falling
   Vector values;   // V(s) of every column and of the state after the last
   std::vector<End> ends;
-  Matrix truncated_states;  // s′ of the truncated decisions, one after the other
-  Vector truncated_values;  // V(s′) of them
+  Eigen::MatrixXd observed;   // features before they are normalised
+  std::vector<Matrix> after;  // s′, normalised, of each decision that was truncated; else empty
+  Matrix truncated_states;    // s′ of the truncated decisions, one after the other
+  Vector truncated_values;    // V(s′) of them
   Vector advantages, returns;
 
   int decisions() const { return environments * steps; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "shaping/potential.h"
@@ -51,6 +52,15 @@ class Slot {
   void begin_next();
 
   std::vector<network::EpisodeSummary> take_finished();
+
+  const std::vector<network::EpisodeSummary>& finished() const { return finished_; }
+
+  /// Of a slot that another rank steps: what it tells of it.
+  void take_over(double simulated_s, std::vector<network::EpisodeSummary> finished) {
+    state_.simulated_s = simulated_s;
+    finished_ = std::move(finished);
+  }
+  void take_over(const SlotState& state) { state_ = state; }
 
   const SlotState& state() const { return state_; }
   void restore(const SlotState& state);

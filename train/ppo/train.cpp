@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "train/ppo/exchange.h"
 #include "train/ppo/training.h"
 #include "train/training/checkpoint.h"
 #include "train/training/curve.h"
@@ -81,10 +82,9 @@ class Evaluator {
   std::vector<environment::Observer> observers_;
 };
 
-/// One batch of decisions, and what is learnt from it. Empty, or why learning stopped.
+/// What is learnt from a batch of decisions. Empty, or why learning stopped.
 std::string learn(const TrainOptions& options, Training& training, training::ThreadPool& threads,
                   RolloutBatch& batch) {
-  collect(options, training, threads, batch);
   training.learner.assess(threads, batch);
   const auto decisions = static_cast<double>(training.progress.decisions);
   const UpdateReport report = training.learner.update(
@@ -94,7 +94,6 @@ std::string learn(const TrainOptions& options, Training& training, training::Thr
         "learning diverged after {} decisions: divergence {}, value loss {}; lower ppo.rate or "
         "ppo.kl",
         decisions, report.kl, report.value_loss);
-  training.normaliser.publish();
   training.progress.updates += report.steps;
   training.sums.batches += 1;
   training.sums.kl += report.kl;
@@ -108,16 +107,22 @@ std::string learn(const TrainOptions& options, Training& training, training::Thr
 training::TrainSummary train_with(const TrainOptions& options, const Potential* potential,
                                   const fs::path& run,
                                   const training::EnvironmentFactory& make_environment,
-                                  const std::atomic<bool>& stop, std::FILE* messages) {
+                                  const std::atomic<bool>& stop, std::FILE* messages,
+                                  parallel::Ranks& ranks) {
   Training training = start_training(options, potential, make_environment);
+  if (!ranks.first()) ranks.wait_for_all();  // until the first has tidied up the folder
   if (fs::exists(training::checkpoint_file(run))) load_checkpoint(training, run);
+  if (ranks.first()) ranks.wait_for_all();
   training::Progress& progress = training.progress;
-  training::Journal journal(run, new_ppo_curve(), progress, messages);
+  training::Journal journal(run, new_ppo_curve(), progress, ranks.first() ? messages : nullptr);
   training::ThreadPool threads(options.run.threads);
   Evaluator evaluator(options, potential, make_environment, threads.size());
   training::TrainSummary summary;
 
   const auto evaluate = [&] {
+    ++progress.rows;
+    progress.last_row_decisions = progress.decisions;
+    if (!ranks.first()) return;
     const network::Policy<float> policy = policy_of(training);
     const training::CurveRow shared =
         training::curve_row(progress, simulated_s(training), evaluator.evaluate(policy, threads));
@@ -128,8 +133,6 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
                          .actions = training.action_names,
                          .action_repeat = options.run.action_repeat},
                         summary.distance_m, progress);
-    ++progress.rows;
-    progress.last_row_decisions = progress.decisions;
     journal.add_row(options, progress, std::move(row));
     progress.sums = {};
     training.sums = {};
@@ -137,23 +140,38 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
 
   RolloutBatch batch;
   auto last_checkpoint = Clock::now();
+  bool stopped = !ranks.gather(stop ? "stop" : "")[0].empty();
   for (;;) {
     if (progress.decisions >= progress.next_evaluation) {
       evaluate();
       progress.next_evaluation += options.run.evaluate_every;
     }
-    if (stop || progress.decisions >= options.run.decisions) break;
-    summary.divergence = learn(options, training, threads, batch);
+    if (stopped || progress.decisions >= options.run.decisions) break;
+    collect(options, training, threads, ranks, batch);
+    if (ranks.first()) summary.divergence = learn(options, training, threads, batch);
+    const std::chrono::duration<double> unsaved = Clock::now() - last_checkpoint;
+    const training::Orders orders =
+        exchange_actor(ranks,
+                       {.stop = stop,
+                        .checkpoint = unsaved.count() > options.run.checkpoint_s,
+                        .divergence = summary.divergence},
+                       training.learner.actor().parameters());
+    stopped = orders.stop;
+    summary.divergence = orders.divergence;
     if (!summary.divergence.empty()) return summary;  // the last good checkpoint stays
-    if (std::chrono::duration<double>(Clock::now() - last_checkpoint).count() >
-        options.run.checkpoint_s) {
-      journal.keep([&] { save_checkpoint(training, run); });
+    training.normaliser.publish();
+    if (orders.checkpoint) {
+      collect_slots(ranks, kGroup, training.slots);
+      if (ranks.first()) journal.keep([&] { save_checkpoint(training, run); });
       last_checkpoint = Clock::now();
     }
   }
+  collect_slots(ranks, kGroup, training.slots);
+  summary.finished = progress.decisions >= options.run.decisions;
+  summary.progress = progress;
+  if (!ranks.first()) return summary;
   try {
     save_checkpoint(training, run);
-    summary.finished = progress.decisions >= options.run.decisions;
     // After the checkpoint, so that a run that is continued with more decisions has no row that an
     // uninterrupted one would not have.
     if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
@@ -169,14 +187,18 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
 
 training::TrainSummary train(const fs::path& run,
                              const training::EnvironmentFactory& make_environment,
-                             const std::atomic<bool>& stop, std::FILE* messages) {
+                             const std::atomic<bool>& stop, std::FILE* messages,
+                             parallel::Ranks& ranks) {
   const TrainOptions options = training::load_run_options(run);
   const std::optional<Potential> potential =
       training::load_run_demonstration(options, run).potential;
-  const training::FolderLock lock(run);
-  training::remove_unfinished_files(run);
+  std::optional<training::FolderLock> lock;
+  if (ranks.first()) {
+    lock.emplace(run);
+    training::remove_unfinished_files(run);
+  }
   return train_with(options, potential ? &*potential : nullptr, run, make_environment, stop,
-                    messages);
+                    messages, ranks);
 }
 
 }  // namespace stride::ppo

@@ -9,6 +9,7 @@ namespace stride::ppo {
 /// returns), explained_variance (means over the batches since the last row), and actor_rate.
 training::TrainSummary train(const std::filesystem::path& run,
                              const training::EnvironmentFactory& make_environment,
-                             const std::atomic<bool>& stop, std::FILE* messages);
+                             const std::atomic<bool>& stop, std::FILE* messages,
+                             parallel::Ranks& ranks = parallel::Ranks::alone());
 
 }  // namespace stride::ppo

@@ -10,11 +10,8 @@ training::TrainSummary train_run(const std::filesystem::path& run,
                                  const std::atomic<bool>& stop, std::FILE* messages,
                                  parallel::Ranks& ranks) {
   const bool ppo = training::load_run_options(run).run.learner == "ppo";
-  if (!ppo) return training::train(run, make_environment, stop, messages, ranks);
-  require(ranks.size() == 1,
-          "{}: run.learner = ppo: runs in one process, not in {}; start it without mpirun",
-          run.string(), ranks.size());
-  return ppo::train(run, make_environment, stop, messages);
+  const auto train = ppo ? ppo::train : training::train;
+  return train(run, make_environment, stop, messages, ranks);
 }
 
 }  // namespace stride

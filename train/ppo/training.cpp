@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include <array>
+#include "train/ppo/exchange.h"
+
 namespace stride::ppo {
 namespace {
 
 /// Streams of random numbers of a run.
 enum Stream : std::uint64_t { kLearner = 1, kWeights = 2, kFirstSlot = 1000 };
-
-/// Environments share a product of matrices in groups of this size, whatever the threads.
-constexpr int kGroup = 8;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ network::Policy<float> policy_of(const Training& training) {
 }
 
 void collect(const training::TrainOptions& options, Training& training,
-             training::ThreadPool& threads, RolloutBatch& batch) {
+             training::ThreadPool& threads, parallel::Ranks& ranks, RolloutBatch& batch) {
   const int n = options.run.environments, steps = options.ppo.horizon;
   const auto features = static_cast<Eigen::Index>(training.feature_names.size());
   const auto actions = static_cast<Eigen::Index>(training.action_names.size());
@@ -70,8 +70,8 @@ void collect(const training::TrainOptions& options, Training& training,
   batch.logits.resize(actions, steps * n);
   batch.rewards.resize(steps * n);
   batch.ends.assign(static_cast<std::size_t>(steps * n), End::none);
-  Eigen::MatrixXd observed(features, (steps + 1) * n);             // not normalised
-  std::vector<Matrix> after(static_cast<std::size_t>(steps * n));  // s′ where it was truncated
+  batch.observed.resize(features, (steps + 1) * n);
+  batch.after.assign(static_cast<std::size_t>(steps * n), Matrix());
 
   const Options& ppo = options.ppo;
   const double age =
@@ -79,6 +79,7 @@ void collect(const training::TrainOptions& options, Training& training,
   const double alive_per_s = ppo.alive_per_s + age * (ppo.final_alive_per_s - ppo.alive_per_s);
 
   threads.run((n + kGroup - 1) / kGroup, [&](int group) {
+    if (!ranks.owns(group)) return;
     const int begin = group * kGroup, size = std::min(kGroup, n - begin);
     network::Mlp<float>::Workspace work;
     Matrix states(features, size);
@@ -96,9 +97,9 @@ void collect(const training::TrainOptions& options, Training& training,
       for (int i = 0; i < size; ++i) {
         mirrors[static_cast<std::size_t>(i)] =
             view(training.slots[static_cast<std::size_t>(begin + i)].features());
-        observed.col(first + i) = seen;
+        batch.observed.col(first + i) = seen;
       }
-      states = observed.middleCols(first, size).cast<float>();
+      states = batch.observed.middleCols(first, size).cast<float>();
       training.normaliser.apply(states);
       batch.states.middleCols(first, size) = states;
     };
@@ -115,7 +116,7 @@ void collect(const training::TrainOptions& options, Training& training,
         batch.rewards[column] = reward;
         batch.ends[static_cast<std::size_t>(column)] = end;
         if (end == End::truncated) {
-          Matrix& state = after[static_cast<std::size_t>(column)];
+          Matrix& state = batch.after[static_cast<std::size_t>(column)];
           view(slot.features());
           state = seen.cast<float>();
           training.normaliser.apply(state);
@@ -126,11 +127,12 @@ void collect(const training::TrainOptions& options, Training& training,
     see(steps * n + begin);
   });
 
-  std::erase_if(after, [](const Matrix& state) { return state.size() == 0; });
-  batch.truncated_states.resize(features, static_cast<Eigen::Index>(after.size()));
-  for (std::size_t i = 0; i < after.size(); ++i)
-    batch.truncated_states.col(static_cast<Eigen::Index>(i)) = after[i];
-  for (Eigen::Index i = 0; i < steps * n; ++i) training.normaliser.add(observed.col(i));
+  exchange_batch(ranks, kGroup, batch, training.slots);
+  std::erase_if(batch.after, [](const Matrix& state) { return state.size() == 0; });
+  batch.truncated_states.resize(features, static_cast<Eigen::Index>(batch.after.size()));
+  for (std::size_t i = 0; i < batch.after.size(); ++i)
+    batch.truncated_states.col(static_cast<Eigen::Index>(i)) = batch.after[i];
+  for (Eigen::Index i = 0; i < steps * n; ++i) training.normaliser.add(batch.observed.col(i));
   training::Progress& progress = training.progress;
   progress.decisions += batch.decisions();
   for (Slot& slot : training.slots)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "extract/parallel/ranks.h"
 #include "train/network/normaliser.h"
 #include "train/ppo/learner.h"
 #include "train/ppo/slot.h"
@@ -36,9 +37,12 @@ Training start_training(const training::TrainOptions& options, const Potential* 
 /// The agent without chance: each excitation is the probability that training would draw a 1 with.
 network::Policy<float> policy_of(const Training& training);
 
-/// Makes `horizon` decisions in every environment by the policy of the moment.
+/// Slots share a product of matrices, and a rank, in groups of this size, whatever the threads.
+inline constexpr int kGroup = 8;
+
+/// Makes `horizon` decisions in every environment by the policy of the moment; `ranks` share them.
 void collect(const training::TrainOptions& options, Training& training,
-             training::ThreadPool& threads, RolloutBatch& batch);
+             training::ThreadPool& threads, parallel::Ranks& ranks, RolloutBatch& batch);
 
 /// RUN/checkpoint.safetensors, written atomically.
 void save_checkpoint(const Training& training, const std::filesystem::path& run);

@@ -19,6 +19,20 @@ for n in 2 4; do
   for file in curve.csv agent.safetensors best.safetensors config.toml; do cmp by1/$file by$n/$file; done
 done
 
+# The same with the other learner.
+ppo="--preset ppo --baseline --seed 3 --set run.threads=1 run.evaluate_every=600 run.evaluation_episodes=2
+     run.environments=20 ppo.horizon=15 ppo.minibatch=100 ppo.actor_hidden=[16] ppo.critic_hidden=[16]"
+for n in 1 2 4; do
+  # shellcheck disable=SC2086
+  ranks $n train $ppo --decisions 1500 --out "ppo$n" > "ppo-log$n" 2>&1 || { cat "ppo-log$n"; exit 1; }
+done
+# shellcheck disable=SC2086
+ranks 2 train $ppo --decisions 700 --out ppo3 > ppo-log3 2>&1 || { cat ppo-log3; exit 1; }
+ranks 3 train --resume ppo3 --decisions 1500 > ppo-log3 2>&1 || { cat ppo-log3; exit 1; }
+for n in 2 3 4; do
+  for file in curve.csv agent.safetensors; do cmp ppo1/$file ppo$n/$file; done
+done
+
 # A rank dies: mpirun says so and ends the others; the run goes on from its checkpoint.
 # shellcheck disable=SC2086
 ranks 2 train $settings --decisions 1500 --set run.checkpoint_s=0.05 --out killed > killed.log 2>&1 &
