@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -16,6 +17,51 @@ COMPETITION = (
     "toes_r_x toes_r_y talus_l_x talus_l_y talus_r_x talus_r_y strength_psoas_l strength_psoas_r "
     "obstacle_x obstacle_y obstacle_radius"
 ).split()
+
+STAND_IN = {
+    "__init__": """
+import importlib
+from . import spaces, vector
+registry = {}
+class Env:
+    pass
+def register(id, entry_point, vector_entry_point):
+    registry[id] = (entry_point, vector_entry_point)
+def made(entry_point, **options):
+    module, name = entry_point.split(":")
+    return getattr(importlib.import_module(module), name)(**options)
+def make(id, **options):
+    return made(registry[id][0], **options)
+def make_vec(id, num_envs, **options):
+    return made(registry[id][1], num_envs=num_envs, **options)
+""",
+    "spaces": """
+class Box:
+    def __init__(self, low, high, shape, dtype):
+        self.low, self.high, self.shape, self.dtype = low, high, shape, dtype
+    def seed(self, seed=None):
+        return seed
+""",
+    "vector": """
+import enum
+class AutoresetMode(enum.Enum):
+    NEXT_STEP = "NextStep"
+    SAME_STEP = "SameStep"
+class VectorEnv:
+    pass
+""",
+}
+
+USE_OF_THE_STAND_IN = """
+import gymnasium, stride
+assert "Stride-v0" in gymnasium.registry
+one = gymnasium.make("Stride-v0", rules="nips2017")
+many = gymnasium.make_vec("Stride-v0", 3)
+assert isinstance(one, gymnasium.Env) and isinstance(many, gymnasium.vector.VectorEnv)
+assert isinstance(one.action_space, gymnasium.spaces.Box)
+observation, info = one.reset(seed=4)
+print(*observation.shape, *one.action_space.shape, many.reset(seed=4)[0].shape[0] == 3)
+"""
 
 
 def bytes_in_python(actions, seed, **options):
@@ -150,6 +196,23 @@ class Contract(unittest.TestCase):
         except ImportError:
             self.skipTest("gymnasium is not installed")
         check_env(gymnasium.make("Stride-v0").unwrapped, skip_render_check=True)
+
+    def test_registers_itself_with_what_offers_gymnasiums_interface(self):
+        # Debian has no gymnasium: a stand-in with the names that the module asks for.
+        with tempfile.TemporaryDirectory() as folder:
+            package = os.path.join(folder, "gymnasium")
+            os.mkdir(package)
+            for name, text in STAND_IN.items():
+                with open(os.path.join(package, name + ".py"), "w") as file:
+                    file.write(text)
+            path = os.pathsep.join([folder, os.environ["PYTHONPATH"]])
+            said = subprocess.run(
+                [sys.executable, "-B", "-c", USE_OF_THE_STAND_IN],
+                env={**os.environ, "PYTHONPATH": path},
+                capture_output=True,
+                text=True,
+            )
+        self.assertEqual((said.stdout, said.stderr), ("41 18 True\n", ""))
 
 
 class BadInput(unittest.TestCase):
