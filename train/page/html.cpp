@@ -31,6 +31,11 @@ pre { font-size: .8rem; overflow-x: auto; background: #f7f7f7; padding: .6rem; }
 .strip { display: flex; flex-wrap: wrap; gap: .5rem; }
 .strip figure { margin: 0; width: 12rem; }
 footer { margin-top: 3rem; color: #777; font-size: .85rem; }
+@media (max-width: 30rem) {
+  table { font-size: .8rem; }
+  th, td { padding-right: .4rem; }
+  .strip figure { width: calc(50% - .25rem); }
+}
 @media print { body { max-width: none; font-size: 11pt; } details > pre { display: none; } }
 )";
 
