@@ -71,6 +71,7 @@ endif()
 # The Python module finds them as well.
 if(PYTHON)
   set(ENV{PYTHONPATH} ${FOLDER}/moved/lib/python3/dist-packages)
-  run(0 ${PYTHON} -c "import stride; env = stride.StrideEnv(); env.reset(seed=1); print(stride.data_file('train/presets/moved.toml'))")
+  file(WRITE ${FOLDER}/data.py "import stride\nstride.StrideEnv().reset(seed=1)\nprint(stride.data_file('train/presets/moved.toml'))\n")
+  run(0 ${PYTHON} ${FOLDER}/data.py)
   expect("${share}/stride/train/presets/moved.toml")
 endif()
