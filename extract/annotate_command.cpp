@@ -10,7 +10,7 @@
 
 #include "extract/annotation/labelled_clip.h"
 #include "extract/annotation/points_on_video.h"
-#include "extract/annotation/qt_wheel.h"
+#include "extract/annotation/qt_events.h"
 #include "extract/annotation/session/background_tracker.h"
 #include "extract/annotation/session/predict.h"
 #include "extract/annotation/session/script.h"
@@ -148,18 +148,18 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
                 video::FrameStore& frames, cv::Size size_px) {
   constexpr auto kRest = std::chrono::milliseconds(300);
   const std::string title = "stride annotate: " + session.keypoints().video;
-  cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_GUI_NORMAL);
+  cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_FREERATIO | cv::WINDOW_GUI_NORMAL);
   cv::resizeWindow(title, size_px);
   Window window{session};
   cv::setMouseCallback(title, on_mouse, &window);
-  const annotation::QtWheel wheel([&](int turn) {
-    annotation::AnnotationEvent event;
-    event.kind = annotation::AnnotationEvent::Kind::wheel;
-    event.p_canvas = window.mouse;
-    event.wheel = turn;
+  const auto handle = [&](const annotation::AnnotationEvent& event) {
     session.handle(event);
     window.changed = true;
-  });
+  };
+  using Kind = annotation::AnnotationEvent::Kind;
+  const annotation::QtEvents events(
+      [&](int turn) { handle({.kind = Kind::wheel, .p_canvas = window.mouse, .wheel = turn}); },
+      [&] { handle({.kind = Kind::key, .key = annotation::key::kTab}); });
   int decoded = -1;
   auto last_event = Clock::now(), last_frame = last_event;
   const auto frame_time = std::chrono::duration<double>(session.frame_s());
@@ -190,11 +190,7 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
     }
     const int key = cv::waitKeyEx(session.playing() ? 2 : 15);
     if (key >= 0) {
-      annotation::AnnotationEvent event;
-      event.kind = annotation::AnnotationEvent::Kind::key;
-      event.key = key;
-      session.handle(event);
-      window.changed = true;
+      handle({.kind = Kind::key, .key = key});
     } else if (Clock::now() - last_event > kRest && session.rest()) {
       window.changed = true;
     }

@@ -24,19 +24,22 @@ std::string clicked_strides(const Keypoints& k, double stride_frames) {
 void draw_landmarks(cv::Mat& canvas, const cv::Rect& box) {
   struct Landmark {
     double x, y;
-    const char* where;
   };
-  static const std::vector<Landmark> near{{0.30, 0.42, "pelvis: midway between the hip joints,"},
-                                          {0.37, 0.66, "knee: where thigh and shank meet"},
-                                          {0.41, 0.88, "ankle: the bump above the shoe"},
-                                          {0.49, 0.91, "toe: tip of the shoe"}},
-      far{{0.30, 0.42, ""}, {0.25, 0.65, ""}, {0.09, 0.71, ""}, {0.07, 0.80, ""}};
+  static const std::vector<Landmark> near{{0.45, 0.28}, {0.55, 0.44}, {0.56, 0.635}, {0.68, 0.655}},
+      far{{0.45, 0.28}, {0.35, 0.44}, {0.175, 0.46}, {0.14, 0.52}};
+  static const std::vector<const char*> where{"Joint centres:",
+                                              "pelvis: midway between the hip",
+                                              "   joints, a hand below the belt",
+                                              "knee: where thigh and shank meet",
+                                              "ankle: the bump above the shoe",
+                                              "toe: the tip of the shoe",
+                                              "Thigh and shank are equally long."};
   const auto at = [&](double x, double y) {
     return cv::Point(box.x + static_cast<int>(x * box.width),
                      box.y + static_cast<int>(y * box.height));
   };
-  cv::line(canvas, at(0.30, 0.42), at(0.33, 0.16), colour::kDim, 3, cv::LINE_AA);
-  cv::circle(canvas, at(0.345, 0.09), box.height / 22, colour::kDim, 2, cv::LINE_AA);
+  cv::line(canvas, at(0.45, 0.28), at(0.49, 0.11), colour::kDim, 3, cv::LINE_AA);
+  cv::circle(canvas, at(0.505, 0.065), box.height / 30, colour::kDim, 2, cv::LINE_AA);
   for (const auto& [leg, paint] :
        {std::pair(&far, colour::kFar), std::pair(&near, colour::kNear)}) {
     for (std::size_t i = 1; i < leg->size(); ++i)
@@ -45,11 +48,11 @@ void draw_landmarks(cv::Mat& canvas, const cv::Rect& box) {
     for (const Landmark& mark : *leg)
       cv::circle(canvas, at(mark.x, mark.y), 5, paint, cv::FILLED, cv::LINE_AA);
   }
-  for (const Landmark& mark : near)
-    draw_text(canvas, mark.where, at(0.55, mark.y), colour::kText, 0.45);
-  draw_text(canvas, "a hand below the belt", at(0.55, 0.46), colour::kText, 0.45);
-  draw_text(canvas, "Click joint centres.  Pelvis to knee is as long as knee to ankle.",
-            at(0.02, 0.97), colour::kAccent, 0.45);
+  double y = 0.70;
+  for (const char* line : where) {
+    draw_text(canvas, line, at(0.04, y), y == 0.70 ? colour::kAccent : colour::kText, 0.45);
+    y += 0.045;
+  }
 }
 
 }  // namespace
