@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <memory>
 #include <opencv2/highgui.hpp>
+#include <optional>
 
 #include "extract/annotation/labelled_clip.h"
+#include "extract/annotation/points_of_video.h"
 #include "extract/annotation/points_on_video.h"
 #include "extract/annotation/qt_events.h"
 #include "extract/annotation/session/background_tracker.h"
@@ -63,7 +65,35 @@ Keypoints fresh_keypoints(const fs::path& video, const video::VideoInfo& info) {
   return keypoints;
 }
 
-/// Adds the points of another program or a pose network as clicks where there are none, as one
+/// The network's points, which the clicks will correct. The document says so from now on.
+tracking::LabelledClip points_to_correct(const Request& request, video::FrameStore& frames,
+                                         annotation::AnnotationJournal& journal) {
+  tracking::PointsOptions options;
+  options.landmarks = request.pose.model;
+  options.person = request.import.person;
+  options.repair_legs = request.repair_legs;
+  options.slow_motion = journal.document().keypoints().slow_motion;
+  frames.wait();
+  fmt::print(stderr, "{}: the pose network looks at {} frames; a moment\n", request.video.string(),
+             frames.count());
+  tracking::LabelledClip network = tracking::points_of_network(request.video, options);
+  annotation::ClipSettings settings = annotation::settings_of(journal.document().keypoints());
+  if (!settings.direction) settings.direction = network.marks.direction;
+  if (!settings.near_leg && settings.direction)
+    settings.near_leg = settings.direction == Facing::left ? Side::left : Side::right;
+  if (!settings.corrects_network)
+    require(
+        journal.document().keypoints().frames.empty(),
+        "{}: was clicked without the network: 'stride track --pose' corrects it by these clicks; "
+        "move the file away to begin from the network's points",
+        journal.file().string());
+  const bool is_new = !settings.corrects_network;
+  settings.corrects_network = true;
+  if (is_new) journal.apply({"points of the pose network, to be corrected", {}, settings});
+  return network;
+}
+
+/// Adds the points of another program or a user's network as clicks where there are none, as one
 /// undoable edit.
 void import_clicks(const Request& request, video::FrameStore& frames,
                    annotation::AnnotationJournal& journal) {
@@ -220,10 +250,20 @@ void run(Request request) {
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
-  if (!request.import_from.empty() || request.pose.wanted) import_clicks(request, frames, journal);
+  const bool corrects = (request.pose.wanted && !request.pose.is_users()) ||
+                        journal.document().keypoints().corrects_network;
+  require(!corrects || request.import_from.empty(),
+          "--import {}: these points are the pose network's to correct; give one of them",
+          request.import_from.string());
+  std::optional<tracking::LabelledClip> network;
+  if (corrects)
+    network = points_to_correct(request, frames, journal);
+  else if (!request.import_from.empty() || request.pose.wanted)
+    import_clicks(request, frames, journal);
+  request.session.corrects = corrects;
   annotation::BackgroundTracker tracker(
       [&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {
-        return annotation::predict(keypoints, frames, given_up);
+        return annotation::predict(keypoints, frames, given_up, network ? &*network : nullptr);
       });
   annotation::AnnotationSession session(journal, frames, request.session);
   if (request.script.empty()) {

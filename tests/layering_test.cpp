@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 /// this list. `commands` are the files of the command line, which know everything in their folder.
 const std::vector<std::string> kRooms{
     "extract/io", "extract/parallel", "extract/skeleton", "extract/video", "extract/import/parsing",
-    "extract/import/formats", "extract/import", "extract/pose/tflite", "extract/pose",
-    "extract/tracking/gaussian_process", "extract/tracking", "extract/annotation",
+    "extract/import/formats", "extract/import/networks", "extract/import", "extract/pose/tflite",
+    "extract/pose", "extract/tracking/gaussian_process", "extract/tracking", "extract/annotation",
     "extract/annotation/session", "extract/commands",
     //
     "calibrate/osim", "calibrate/runner", "calibrate/fit/solver", "calibrate/fit", "calibrate/gait",

@@ -8,10 +8,14 @@
 namespace stride::fit {
 
 /// The roll of the ground in the image (mean positive where it rises to the right): a marked floor
-/// line, else the runner's way past the background of a camera that follows. The less sure, the
-/// more that way and the background's own direction differ (the camera tilts) and the more the
-/// runner grows (it zooms). None if the camera stands, or if the background passes by less than
-/// half a frame or leaves more than a degree and a half.
+/// line, else the direction in which the background passes a camera that follows. None if the
+/// camera stands, if the background passes by less than half a frame or leaves more than a degree,
+/// or if camera_turns().
 std::optional<Prior> ground_roll(const Trajectory& trajectory);
+
+/// Whether the camera tilts or zooms as it follows: then the background passes in another direction
+/// than the runner passes the background, by more than a degree. A tilt moves both alike, a zoom
+/// moves what is off the middle of the picture.
+bool camera_turns(const Trajectory& trajectory);
 
 }  // namespace stride::fit

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/fit/ground_slope.h"
 #include "extract/io/statistics.h"
 #include "extract/tracking/time_check.h"
 
@@ -159,6 +160,16 @@ void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) 
                            fmt::join(changes, ", ")));
 }
 
+/// A camera that tilts or zooms does not tell how the ground lies.
+void judge_camera(const Trajectory& trajectory, Verdict& verdict) {
+  if (std::isfinite(trajectory.floor_roll_rad) || !fit::camera_turns(trajectory)) return;
+  verdict.note(
+      fmt::format("the camera tilts or zooms, so the ground's slope is known from the standing "
+                  "feet alone: mark "
+                  "the floor of {} (o in stride annotate)",
+                  trajectory.video));
+}
+
 /// Jumps of the pelvis by more than half a leg between neighbouring frames.
 void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
                 const fit::StrideFit& fit, double leg_px, Verdict& verdict) {
@@ -248,7 +259,10 @@ void judge_alarms(Verdict& verdict) {
 bool judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
   const double period = fit.runner.cadence[cadence::period_s];
   if (strides < 0.9)
-    verdict.refuse(fmt::format("{:.2f} strides are seen: one is needed, two to be sure", strides));
+    verdict.refuse(fmt::format(
+        "{:.2f} strides are seen: one is needed, two to be sure; if the clip is a loop, "
+        "stride convert --loop 4",
+        strides));
   else if (strides < 1.5)
     verdict.note(
         fmt::format("only {:.2f} strides are seen: nothing tells whether they repeat", strides));
@@ -333,6 +347,7 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
   if (!judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict))
     judge_speed(fit, gait, verdict);
   judge_scene(trajectory, leg_px, verdict);
+  judge_camera(trajectory, verdict);
   judge_cuts(trajectory, observations, fit, leg_px, verdict);
   judge_gaps(trajectory, r.cadence[cadence::period_s], verdict);
   if (gait.correlation < 0.6)

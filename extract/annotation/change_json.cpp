@@ -43,6 +43,7 @@ Json json_of(const ClipSettings& s) {
             {"near_leg", name_or_empty(kSides, s.near_leg)},
             {"slow_motion", s.slow_motion},
             {"notes", s.notes}};
+  if (s.corrects_network) json["corrects_network"] = true;
   if (s.treadmill) json["treadmill"] = *s.treadmill;
   if (s.trim) json["trim"] = Json::array({s.trim->first, s.trim->last});
   if (s.floor) json["floor"] = Json::array({json_of(s.floor->from_px), json_of(s.floor->to_px)});
@@ -55,6 +56,7 @@ ClipSettings settings_of(const Json& json) {
   s.near_leg = kSides.find(json.at("near_leg").get<std::string>());
   s.slow_motion = json.at("slow_motion");
   s.notes = json.at("notes");
+  s.corrects_network = json.value("corrects_network", false);
   if (json.contains("treadmill")) s.treadmill = json.at("treadmill").get<bool>();
   if (json.contains("trim"))
     s.trim = {frame_of(json.at("trim").at(0)), frame_of(json.at("trim").at(1))};

@@ -26,6 +26,19 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
                                const std::vector<BodyPart>& parts,
                                const std::vector<int>& passed_by);
 
+/// A point of a detector that a person had better look at.
+struct WorstPoint {
+  int frame = 0;
+  BodyPart part = BodyPart::pelvis;
+};
+
+/// The point with the largest expected error: by its own confidence, and by how far the detector's
+/// idea of the joint may be from ours, which every click on the joint makes smaller. Not within
+/// three frames of a click on the same part, nor what was passed by. Nothing if no part is left.
+std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoints& keypoints,
+                                      const std::vector<BodyPart>& parts,
+                                      const std::vector<WorstPoint>& passed_by);
+
 /// A line through the lowest positions of the feet. Nothing if they lie within a tenth of the
 /// picture's width, as on a treadmill.
 std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames);

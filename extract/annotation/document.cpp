@@ -5,7 +5,8 @@
 namespace stride::annotation {
 
 ClipSettings settings_of(const Keypoints& k) {
-  return {k.direction, k.near_leg, k.slow_motion, k.treadmill, k.trim, k.floor, k.notes};
+  return {k.direction, k.near_leg, k.slow_motion, k.treadmill,
+          k.trim,      k.floor,    k.notes,       k.corrects_network};
 }
 
 namespace {
@@ -18,6 +19,7 @@ void set(Keypoints& k, const ClipSettings& settings) {
   k.trim = settings.trim;
   k.floor = settings.floor;
   k.notes = settings.notes;
+  k.corrects_network = settings.corrects_network;
 }
 
 bool is_empty(const ClickedFrame& frame) {

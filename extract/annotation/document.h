@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "extract/skeleton/keypoints.h"
@@ -18,6 +19,7 @@ struct ClipSettings {
   std::optional<FrameRange> trim;
   std::optional<FloorLine> floor;
   std::string notes;
+  bool corrects_network = false;
 };
 
 ClipSettings settings_of(const Keypoints& keypoints);
@@ -43,6 +45,10 @@ class AnnotationDocument {
 
   const Keypoints& keypoints() const { return keypoints_; }
   int revision() const { return revision_; }  // grows with every edit, undo and redo
+  const std::vector<Change>& history() const { return undo_; }  // the last is undone first
+
+  /// What an earlier program could have undone, for this one to undo.
+  void remember(std::vector<Change> history) { undo_ = std::move(history); }
 
   /// Throws Error and changes nothing if the result would violate the rules of the format.
   void apply(Change change);

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <sstream>
@@ -21,6 +22,9 @@ namespace {
 // `folded SHA-256` before the keypoints file was replaced by one of that hash.
 constexpr std::string_view kFirstLine = "stride annotation journal 1 after ";
 constexpr std::string_view kFolded = "folded ";
+// The first line of a history; then changes in JSON, the last is undone first.
+constexpr std::string_view kHistory = "stride annotation history 1 of ";
+constexpr std::size_t kMostRemembered = 2000;  // changes
 
 std::string hash_of(const fs::path& file) {
   return fs::exists(file) ? sha256_of_file(file) : std::string();
@@ -115,12 +119,17 @@ fs::path journal_file_of(const fs::path& keypoints_file) {
   return fs::path(keypoints_file).replace_extension(".journal");
 }
 
+fs::path history_file_of(const fs::path& keypoints_file) {
+  return fs::path(keypoints_file).replace_extension(".undo");
+}
+
 AnnotationJournal::AnnotationJournal(const fs::path& keypoints_file, const Keypoints& fresh)
     : file_(keypoints_file),
       journal_file_(journal_file_of(keypoints_file)),
       document_(opened(keypoints_file, fresh)),
       base_(hash_of(keypoints_file)),
       log_(std::make_unique<Log>(journal_file_)) {
+  load_history();
   const std::string left_over = read_file(journal_file_);
   if (left_over.empty()) {
     start_log();
@@ -132,10 +141,42 @@ AnnotationJournal::AnnotationJournal(const fs::path& keypoints_file, const Keypo
 AnnotationJournal::~AnnotationJournal() {
   try {
     fold();
+    save_history();
     log_->remove();
   } catch (const std::exception& error) {
     fmt::print(stderr, "warning: {}\n", error.what());
   }
+}
+
+void AnnotationJournal::load_history() {
+  const fs::path file = history_file_of(file_);
+  if (!fs::is_regular_file(file)) return;
+  std::istringstream lines(read_file(file));
+  std::string line;
+  std::getline(lines, line);
+  // A history of other keypoints, or a damaged one, undoes nothing.
+  if (base_.empty() || line != fmt::format("{}{}", kHistory, base_)) return;
+  std::vector<Change> history;
+  try {
+    while (std::getline(lines, line)) history.push_back(change_of(line, file.string()));
+  } catch (const Error&) {
+    return;
+  }
+  document_.remember(std::move(history));
+}
+
+void AnnotationJournal::save_history() const {
+  const std::vector<Change>& history = document_.history();
+  if (history.empty()) {
+    std::error_code none;
+    fs::remove(history_file_of(file_), none);
+    return;
+  }
+  std::string text = fmt::format("{}{}\n", kHistory, base_);
+  for (std::size_t i = history.size() - std::min(history.size(), kMostRemembered);
+       i < history.size(); ++i)
+    text += line_of(history[i]) + '\n';
+  write_file_atomically(history_file_of(file_), text);
 }
 
 void AnnotationJournal::start_log() {

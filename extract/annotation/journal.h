@@ -13,6 +13,9 @@ namespace stride::annotation {
 /// the program is killed, the next one to open the annotation finds every edit whose call had
 /// returned.
 ///
+/// What can be undone is kept beside it as NAME.keypoints.undo for the next window, as long as the
+/// keypoints are those that it belongs to.
+///
 /// NAME.keypoints.json is replaced only if it is unchanged since it was read or written here, so a
 /// file that was edited meanwhile or written by a newer version is never lost.
 class AnnotationJournal {
@@ -47,6 +50,8 @@ class AnnotationJournal {
   void replay(const std::string& content);
 
   void record(const Change& change);
+  void load_history();
+  void save_history() const;
 
   std::filesystem::path file_, journal_file_;
   AnnotationDocument document_;
@@ -59,6 +64,8 @@ class AnnotationJournal {
 /// Folds the journal that a killed `stride annotate` left, for programs that only read the
 /// keypoints. Does nothing without a journal or while a window has it open.
 void fold_left_over_journal(const std::filesystem::path& keypoints_file);
+
+std::filesystem::path history_file_of(const std::filesystem::path& keypoints_file);
 
 std::filesystem::path journal_file_of(const std::filesystem::path& keypoints_file);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "extract/annotation/journal.h"
 #include "extract/annotation/points_on_video.h"
 #include "extract/io/error.h"
@@ -9,6 +11,7 @@
 #include "extract/pose/weights.h"
 #include "extract/tracking/corrections.h"
 #include "extract/tracking/leg_identity.h"
+#include "extract/video/decoded_clip.h"
 #include "extract/video/video.h"
 
 namespace stride::tracking {
@@ -20,9 +23,14 @@ void tell(const std::string& video, const pose::NetworkPoints& points) {
   fmt::print(stderr, "{}: the pose network follows person {} of {} on {} of {} frames{}\n", video,
              points.detections.person, points.detections.people.size(), frames - lost, frames,
              doubtful > 0 ? fmt::format(", unsure of the legs on {}", doubtful) : "");
+  for (const int other : points.also_running)
+    fmt::print(stderr, "warning: {}: person {} makes strides too; --person {} takes that one\n",
+               video, other, other);
 }
 
-LabelledClip seen_by_network(const fs::path& video, const PointsOptions& options) {
+}  // namespace
+
+LabelledClip points_of_network(const fs::path& video, const PointsOptions& options) {
   pose::NetworkOptions network;
   network.landmarks = options.landmarks;
   network.person = options.person;
@@ -35,9 +43,14 @@ LabelledClip seen_by_network(const fs::path& video, const PointsOptions& options
   return seen;
 }
 
+namespace {
+
 /// How much farther knees and ankles are from the clicks with the legs as they are than exchanged,
-/// px.
+/// in sizes of the runner. A point that the network is unsure of says little: it may be on the
+/// wrong leg on its frame alone, and such points are corrected first.
 double exchange_gain(const Trajectory& seen, const Trajectory& clicks) {
+  constexpr double kMost = 0.3;  // of one point
+  const double size_px = video::body_size_px(seen);
   double gain = 0;
   for (const TrajectoryFrame& clicked : clicks.frames)
     for (const TrajectoryFrame& frame : seen.frames) {
@@ -46,7 +59,10 @@ double exchange_gain(const Trajectory& seen, const Trajectory& clicks) {
            {BodyPart::knee_r, BodyPart::knee_l, BodyPart::ankle_r, BodyPart::ankle_l}) {
         const Point &click = clicked[part], &own = frame[part], &other = frame[mirrored(part)];
         if (click.present() && own.present() && other.present())
-          gain += (own.p_px - click.p_px).norm() - (other.p_px - click.p_px).norm();
+          gain += own.confidence *
+                  std::clamp(
+                      ((own.p_px - click.p_px).norm() - (other.p_px - click.p_px).norm()) / size_px,
+                      -kMost, kMost);
       }
     }
   return gain;
@@ -54,31 +70,41 @@ double exchange_gain(const Trajectory& seen, const Trajectory& clicks) {
 
 }  // namespace
 
+LabelledClip mixed(LabelledClip network, const LabelledClip& clicks) {
+  LabelledClip result = std::move(network);
+  constexpr double kClearly = 0.25;  // as two points that the network is sure of
+  if (exchange_gain(result.marks, clicks.marks) > kClearly)
+    for (TrajectoryFrame& frame : result.marks.frames) swap_legs(frame);
+  result.marks = corrected(result.marks, clicks.marks);
+  if (!clicks.marks.frames.empty()) result.points = "mixed";
+  result.slow_motion = clicks.slow_motion;
+  if (clicks.marks.direction) result.marks.direction = clicks.marks.direction;
+  result.marks.treadmill = clicks.marks.treadmill;
+  result.marks.floor_roll_rad = clicks.marks.floor_roll_rad;
+  return result;
+}
+
 LabelledClip points_of_video(const fs::path& video, const PointsOptions& options) {
   video::require_video_file(video);
   const fs::path file = options.keypoints.empty() ? keypoints_file_of(video) : options.keypoints;
   annotation::fold_left_over_journal(file);
   const bool clicked = fs::exists(file) || !options.keypoints.empty();
-  if (clicked && !options.network) return clicks_on(video, file, options.slow_motion);
-  require(
-      options.network || pose::installed_weights().has_value(),
-      "{}: not clicked: {} is missing; click points with 'stride annotate {}', import them with "
-      "'stride track --import', or let a network find them: {}",
-      video.string(), file.string(), video.string(), pose::how_to_install_weights());
-  if (!clicked) return seen_by_network(video, options);
+  const bool network = options.network || (clicked && load_keypoints(file).corrects_network);
+  if (clicked && !network) return clicks_on(video, file, options.slow_motion);
+  require(options.network || pose::installed_weights().has_value(),
+          "{}: {}; click points with 'stride annotate {}', import them with 'stride track "
+          "--import', or "
+          "let a network find them: {}",
+          video.string(),
+          clicked ? fmt::format("its clicks correct a pose network, which is not installed")
+                  : fmt::format("not clicked: {} is missing", file.string()),
+          video.string(), pose::how_to_install_weights());
+  if (!clicked) return points_of_network(video, options);
 
   const LabelledClip clicks = clicks_on(video, file, options.slow_motion);
-  PointsOptions network = options;
-  network.slow_motion = clicks.slow_motion;
-  LabelledClip mixed = seen_by_network(video, network);
-  if (exchange_gain(mixed.marks, clicks.marks) > 0)
-    for (TrajectoryFrame& frame : mixed.marks.frames) swap_legs(frame);
-  mixed.marks = corrected(mixed.marks, clicks.marks);
-  mixed.points = "mixed";
-  if (clicks.marks.direction) mixed.marks.direction = clicks.marks.direction;
-  mixed.marks.treadmill = clicks.marks.treadmill;
-  mixed.marks.floor_roll_rad = clicks.marks.floor_roll_rad;
-  return mixed;
+  PointsOptions as_clicked = options;
+  as_clicked.slow_motion = clicks.slow_motion;
+  return mixed(points_of_network(video, as_clicked), clicks);
 }
 
 }  // namespace stride::tracking

@@ -23,4 +23,11 @@ struct PointsOptions {
 /// there are neither clicks nor a network, and as clicks_on() and network_points() do.
 LabelledClip points_of_video(const std::filesystem::path& video, const PointsOptions& options);
 
+/// The pose network's points on a video, without a click.
+LabelledClip points_of_network(const std::filesystem::path& video, const PointsOptions& options);
+
+/// The network's points, corrected by clicks: everywhere by what the clicks teach, at the clicks by
+/// the clicks themselves.
+LabelledClip mixed(LabelledClip network, const LabelledClip& clicks);
+
 }  // namespace stride::tracking

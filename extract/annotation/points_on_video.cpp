@@ -5,6 +5,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/statistics.h"
+#include "extract/tracking/left_out_frames.h"
 #include "extract/tracking/leg_identity.h"
 #include "extract/tracking/picture_check.h"
 
@@ -60,11 +61,12 @@ void scale(const imports::Detections& detections, const imports::ImportOptions& 
     if (width <= 0 || height <= 0 || (width == info.width_px && height == info.height_px)) continue;
     const double aspect = static_cast<double>(width) * info.height_px / height / info.width_px;
     const bool is_stored = width == info.stored_width_px && height == info.height_px;
-    require(is_said || is_stored || std::abs(aspect - 1) < 0.03,
+    const bool is_share = width == 1 && height == 1;
+    require(is_said || is_stored || is_share || std::abs(aspect - 1) < 0.03,
             "{}: frame {}: the points were made on a picture of {} x {} px, the video is {} x {}: "
             "do they belong to another video?",
             detections.file, imported.frame, width, height, info.width_px, info.height_px);
-    from = fmt::format("{} x {}", width, height);
+    if (!is_share || is_said) from = fmt::format("{} x {}", width, height);
     for (Point& point : marks.frames[i].points)
       if (point.present())
         point.p_px = {scaled(point.p_px.x(), width, info.width_px),
@@ -93,6 +95,22 @@ void renumber(const imports::Detections& detections, const imports::ImportOption
           "{}: has points to frame {}, but the video has {} frames: do they belong to another "
           "video, or was this one trimmed? (--first-frame N: the number of its first frame)",
           detections.file, last, frames);
+}
+
+/// Counts frames that were left out of the file's numbers.
+void renumber_after_dropouts(const fs::path& video, int frames, Trajectory& marks) {
+  const std::vector<LeftOutFrames> left_out = left_out_frames(marks, video, frames);
+  for (const LeftOutFrames& each : left_out)
+    warn(
+        "the points leap at frame {} and go from there where the picture goes {} frames later: the "
+        "file does not count {} frames without points; taken so (write the true frame numbers, or "
+        "empty rows, into the file)",
+        each.frame, each.count, each.count);
+  for (TrajectoryFrame& frame : marks.frames) {
+    const int number = frame.frame;
+    for (const LeftOutFrames& each : left_out)
+      if (number >= each.frame) frame.frame += each.count;
+  }
 }
 
 /// Coordinates that are no pixels of this picture; a few points outside it are left out.
@@ -252,6 +270,7 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   check_layout(marks);
   const bool labels = are_labels(marks);
   if (!labels) {
+    renumber_after_dropouts(file, static_cast<int>(times_s.size()), marks);
     check_cover(static_cast<int>(times_s.size()), marks);
     check_motion(marks, glimpses, info);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "extract/import/formats/formats.h"
+#include "extract/import/networks/networks.h"
 #include "extract/import/parsing/people.h"
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
@@ -21,6 +22,14 @@ std::string sniff(std::string_view content, const std::string& file) {
   const auto start = content.find_first_not_of(" \t\n");
   if (start == std::string_view::npos) return "";
   const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
+  if ((content[start] == '[' || content[start] == '{') && !has("\"pose_keypoints_2d\"")) {
+    if (has("\"visible\"")) return "ultralytics";
+    if (has("\"visibility\"") || has("andmarks\"")) return "mediapipe";
+    if (has("\"instances\"") && !has("\"instance_info\"")) return "rtmpose";
+    if (has("\"keypoints\"") && (has("\"scores\"") || has("\"keypoint_scores\"")) &&
+        !has("\"instance_info\""))
+      return "rtmpose";
+  }
   if (content[start] == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
   if (content[start] == '{') {
     if (has("\"people\"")) return "openpose";
@@ -41,6 +50,7 @@ std::string sniff(std::string_view content, const std::string& file) {
   if (first.starts_with("PathFileType")) return "trc";
   if (first == "Time") return "kinovea";
   if (names("_cam1_X")) return "dltdv";
+  if (is_mediapipe(table.lines.front())) return "mediapipe";
   return first == "frame" ? "csv" : "";
 }
 
@@ -67,28 +77,63 @@ void require_text(FileKind kind, const std::string& file) {
           "{}: is {}; expected points as text: {}", file, name(kind), cure());
 }
 
-ImportedFile read_openpose_folder(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+/// The number of a file's frame. Ultralytics counts the frames of a video from 1 and writes the
+/// numbers without zeros in front; a series of pictures keeps its own numbers.
+int frame_of(const fs::path& file, std::string_view format) {
+  const std::string name = file.stem().string();
+  const auto frame = last_number(name);
+  require(
+      frame.has_value(),
+      "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints.json",
+      file.string());
+  const bool from_1 = format == "ultralytics" && file.extension() == ".txt" && *frame > 0 &&
+                      name.ends_with(fmt::format("_{}", *frame));
+  return from_1 ? *frame - 1 : *frame;
+}
+
+using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
+const std::vector<std::pair<std::string, Reader>>& readers();
+
+ImportedFile read_as(const std::string& format, std::string_view text, const std::string& file,
+                     const ImportOptions& options) {
+  return std::ranges::find(readers(), format, [](const auto& r) { return r.first; })
+      ->second(text, file, options);
+}
+
+/// A file a frame: OpenPose's, Ultralytics' .txt, or any format that has one. Sets `format`.
+ImportedFile read_folder(const fs::path& folder, std::string& format,
+                         const ImportOptions& options) {
+  std::vector<fs::path> files, labels;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
+    if (entry.path().extension() == ".txt") labels.push_back(entry.path());
+  }
+  const bool are_labels = files.empty() && !labels.empty();
+  if (are_labels) files = labels;
   require(!files.empty(),
-          "{}: a folder without .json files: expected OpenPose's NAME_000000000012_keypoints.json",
+          "{}: a folder without files of a frame each: expected OpenPose's "
+          "NAME_000000000012_keypoints.json, or Ultralytics' NAME_12.txt",
           folder.string());
   std::ranges::sort(files);
+  if (format.empty()) {
+    const std::string found =
+        are_labels ? "ultralytics"
+                   : sniff(decoded_text(read_file(files.front()), files.front().string()),
+                           files.front().string());
+    format =
+        found == "mediapipe" || found == "ultralytics" || found == "rtmpose" ? found : "openpose";
+  }
   ImportedFile content;
   for (const fs::path& file : files) {
-    const auto frame = last_number(file.stem().string());
-    require(frame.has_value(),
-            "{}: expected the number of the frame in the name, as in NAME_000000000012_keypoints"
-            ".json",
-            file.string());
-    const DetectedPeople more = read_openpose(read_file(file), file.string(), *frame).people;
+    const int frame = frame_of(file, format);
+    const std::string text = decoded_text(read_file(file), file.string());
+    DetectedPeople more = are_labels ? read_ultralytics_labels(text, file.string(), frame).people
+                                     : read_as(format, text, file.string(), options).people;
+    for (DetectedPerson& person : more) person.frame = frame;
     content.people.insert(content.people.end(), more.begin(), more.end());
   }
   return content;
 }
-
-using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
 
 /// Every format by its name.
 const std::vector<std::pair<std::string, Reader>>& readers() {
@@ -107,6 +152,9 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"cvat", read_cvat},
       {"kinovea", read_kinovea},
       {"dltdv", read_dltdv},
+      {"mediapipe", read_mediapipe},
+      {"ultralytics", read_ultralytics},
+      {"rtmpose", read_rtmpose},
       {"csv", read_own_csv},
       {"json", [](std::string_view content, const std::string& file, const ImportOptions&) {
          return read_own_json(content, file);
@@ -132,10 +180,13 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
           "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
   ImportedFile content;
   if (fs::is_directory(path)) {
-    require(format.empty() || format == "openpose",
-            "{}: is a folder; a folder is read as OpenPose's, not as {}", path.string(), format);
-    format = "openpose";
-    content = read_openpose_folder(path);
+    const bool has_folders = format.empty() || format == "openpose" || format == "mediapipe" ||
+                             format == "ultralytics" || format == "rtmpose";
+    require(has_folders,
+            "{}: is a folder; a folder is read as OpenPose's, MediaPipe's, Ultralytics' or "
+            "RTMPose's, a file a frame, not as {}",
+            path.string(), format);
+    content = read_folder(path, format, options);
   } else {
     require(fs::is_regular_file(path), "{}: is not a file", path.string());
     require_text(kind_of(path), path.string());
@@ -144,8 +195,7 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
     require(!format.empty(),
             "{}:1: not a format of points that is known; expected one of {} (see --format)",
             path.string(), fmt::join(import_formats(), ", "));
-    const auto reader = std::ranges::find(readers(), format, [](const auto& r) { return r.first; });
-    content = reader->second(text, path.string(), options);
+    content = read_as(format, text, path.string(), options);
   }
   require(!options.rate_was_given || format == "kinovea",
           "--import-rate {}: files of {} say frames, not times: it has no effect, leave it out",

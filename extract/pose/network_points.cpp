@@ -23,16 +23,15 @@ constexpr int kFewestFrames = 10;
 
 /// Which landmarks a part is the mean of, and the standard deviation of its error, of each
 /// coordinate in leg lengths, where its heat map reaches 0.9: measured on our clips, the difference
-/// between the network's idea of a joint and ours included.
+/// between the network's idea of a joint and ours included. The hips are the pelvis' own landmarks:
+/// as points beside it they would count twice, and the network's two hips are no hip joints.
 struct PartOfLandmarks {
   BodyPart part;
   std::array<std::size_t, 2> landmarks;
   double sd_legs;
 };
-constexpr double kKnee = 0.016, kAnkle = 0.025, kToe = 0.034, kHip = 0.02, kHead = 0.03;
+constexpr double kKnee = 0.016, kAnkle = 0.025, kToe = 0.034, kHead = 0.03;
 constexpr std::array kParts{PartOfLandmarks{BodyPart::pelvis, {23, 24}, kKnee},
-                            PartOfLandmarks{BodyPart::hip_l, {23, 23}, kHip},
-                            PartOfLandmarks{BodyPart::hip_r, {24, 24}, kHip},
                             PartOfLandmarks{BodyPart::knee_l, {25, 25}, kKnee},
                             PartOfLandmarks{BodyPart::knee_r, {26, 26}, kKnee},
                             PartOfLandmarks{BodyPart::ankle_l, {27, 27}, kAnkle},
@@ -177,7 +176,12 @@ NetworkPoints network_points(const std::filesystem::path& video, const NetworkOp
   const FollowedPerson& runner = people[static_cast<std::size_t>(points.detections.person - 1)];
   points.followed = summary(runner);
   check(points.followed, video.string());
-  for (const FollowedPerson& person : people) points.detections.people.push_back(described(person));
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    points.detections.people.push_back(described(people[i]));
+    if (&people[i] != &runner && people[i].striding > 0 &&
+        2 * people[i].striding >= runner.striding)
+      points.also_running.push_back(static_cast<int>(i) + 1);
+  }
   for (std::size_t i = 0; i < runner.frames.size(); ++i) {
     if (!runner.frames[i]) continue;
     const auto frame = points_of(*runner.frames[i], static_cast<int>(i), image);

@@ -25,6 +25,8 @@ struct Followed {
 struct NetworkPoints {
   imports::Detections detections;  // with a confidence that falls as the heat map does
   Followed followed;
+  std::vector<int> also_running;  // other people, counted from 1, who make strides at least half as
+                                  // long
 };
 
 /// The runner of a video as BlazePose sees him, without any click. Right and left are as the

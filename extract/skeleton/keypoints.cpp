@@ -172,13 +172,17 @@ Keypoints load_keypoints(const fs::path& path) {
             "{}: floor_line_px = {}: must be two points [[x, y], [x, y]]", file, line.dump());
     k.floor = {point(line[0], file + ": floor_line_px"), point(line[1], file + ": floor_line_px")};
   }
+  const auto corrects = value_or<std::string>(json, "corrects", "", file, "network");
+  require(corrects.empty() || corrects == "network", "{}: corrects = {}: must be network", file,
+          corrects);
+  k.corrects_network = !corrects.empty();
   k.notes = value_or<std::string>(json, "notes", "", file, "a text");
   require(json.contains("frames") && json.at("frames").is_array(),
           "{}: \"frames\" must be a list of clicked frames", file);
   for (const Json& frame : json.at("frames")) read_frame(frame, file, k);
-  k.other_json = others(
-      json, {"format", "version", "video", "video_sha256", "width_px", "height_px", "direction",
-             "near_leg", "slow_motion", "treadmill", "trim", "floor_line_px", "notes", "frames"});
+  k.other_json = others(json, {"format", "version", "video", "video_sha256", "width_px",
+                               "height_px", "direction", "near_leg", "slow_motion", "treadmill",
+                               "trim", "floor_line_px", "corrects", "notes", "frames"});
   check(k, file);
   return k;
 }
@@ -234,6 +238,7 @@ std::string text_of(const Keypoints& k) {
   if (k.trim) json["trim"] = {{"first_frame", k.trim->first}, {"last_frame", k.trim->last}};
   if (k.floor)
     json["floor_line_px"] = Json::array({json_of(k.floor->from_px), json_of(k.floor->to_px)});
+  if (k.corrects_network) json["corrects"] = "network";
   json["notes"] = k.notes;
   add_others(json, k.other_json);
   json["frames"] = Json::array();

@@ -62,6 +62,7 @@ struct Keypoints {
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;  // only these frames are used
   std::optional<FloorLine> floor;
+  bool corrects_network = false;  // the clicks correct a pose network's points on all frames
   std::string notes;
   std::map<int, ClickedFrame> frames;  // by frame number
   std::string other_json;              // unknown keys, kept as they are

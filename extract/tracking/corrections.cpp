@@ -7,13 +7,16 @@
 #include <optional>
 #include <vector>
 
+#include "extract/video/decoded_clip.h"
+
 namespace stride::tracking {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kClicksAsPrior = 1.5;  // that no offset is expected weighs as much as these
-constexpr double kReach_s = 0.04;       // over which the rest of a correction fades
+constexpr double kClicksAsPrior = 1.5;    // that no offset is expected weighs as much as these
+constexpr double kReach_s = 0.04;         // over which the rest of a correction fades
+constexpr double kFarthestSpread = 0.15;  // of the runner's size
 
 const TrajectoryFrame* frame_of(const Trajectory& points, int frame) {
   const auto found = std::ranges::lower_bound(points.frames, frame, {}, &TrajectoryFrame::frame);
@@ -54,8 +57,9 @@ void move_along_limb(BodyPart right, const Trajectory& clicks, Trajectory& point
         frame[joint].p_px += *to_px * sum / count;
 }
 
-/// The rest of the corrections of a part: each fades with the distance in time.
-void move_near_clicks(BodyPart part, const Trajectory& clicks, Trajectory& points) {
+/// The rest of the corrections of a part: each fades with the distance in time. A large one is of
+/// a point on the other leg, and says nothing of the frames beside it.
+void move_near_clicks(BodyPart part, double size_px, const Trajectory& clicks, Trajectory& points) {
   struct Rest {
     double time_s;
     Vector2d px;
@@ -63,8 +67,9 @@ void move_near_clicks(BodyPart part, const Trajectory& clicks, Trajectory& point
   std::vector<Rest> rests;
   for (const TrajectoryFrame& clicked : clicks.frames) {
     const TrajectoryFrame* detected = frame_of(points, clicked.frame);
-    if (detected != nullptr && clicked[part].present() && (*detected)[part].present())
-      rests.push_back({detected->time_s, clicked[part].p_px - (*detected)[part].p_px});
+    if (detected == nullptr || !clicked[part].present() || !(*detected)[part].present()) continue;
+    const Vector2d rest_px = clicked[part].p_px - (*detected)[part].p_px;
+    if (rest_px.norm() < kFarthestSpread * size_px) rests.push_back({detected->time_s, rest_px});
   }
   for (TrajectoryFrame& frame : points.frames) {
     Vector2d moved = Vector2d::Zero();
@@ -97,7 +102,8 @@ Trajectory corrected(const Trajectory& detected, const Trajectory& clicks) {
   Trajectory points = detected;
   for (const Bone& bone : kBones)
     if (row(bone.to).side == Side::right) move_along_limb(bone.to, clicks, points);
-  for (const BodyPart part : kBodyParts) move_near_clicks(part, clicks, points);
+  const double size_px = video::body_size_px(points);
+  for (const BodyPart part : kBodyParts) move_near_clicks(part, size_px, clicks, points);
   put(clicks, points);
   return points;
 }

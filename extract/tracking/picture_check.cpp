@@ -27,11 +27,20 @@ struct Remedy {
   int frames_later = 0;
 };
 
-PictureCheck compared(const std::map<int, const TrajectoryFrame*>& frames,
-                      const std::vector<Glimpse>& glimpses, const Remedy& remedy) {
+using FramesByNumber = std::map<int, const TrajectoryFrame*>;
+
+FramesByNumber by_number(const Trajectory& points) {
+  FramesByNumber frames;
+  for (const TrajectoryFrame& frame : points.frames) frames[frame.frame] = &frame;
+  return frames;
+}
+
+PictureCheck compared(const FramesByNumber& frames, const std::vector<Glimpse>& glimpses,
+                      const Remedy& remedy) {
   int followed = 0;
   PictureCheck check;
   for (const Glimpse& glimpse : glimpses) {
+    if (glimpse.second.empty()) continue;
     const auto a = frames.find(glimpse.frame - remedy.frames_later),
                b = frames.find(glimpse.frame - remedy.frames_later + 1);
     if (a == frames.end() || b == frames.end()) continue;
@@ -119,13 +128,9 @@ void Glimpses::add(const video::VideoFrame& frame) {
   if (is_wanted(frame.index)) glimpses_.push_back({frame.index, gray, {}, scale});
 }
 
-PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glimpse>& given,
+PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glimpse>& glimpses,
                                 const video::VideoInfo& info) {
-  std::vector<Glimpse> glimpses;
-  for (const Glimpse& glimpse : given)
-    if (!glimpse.second.empty()) glimpses.push_back(glimpse);
-  std::map<int, const TrajectoryFrame*> frames;
-  for (const TrajectoryFrame& frame : points.frames) frames[frame.frame] = &frame;
+  const FramesByNumber frames = by_number(points);
   PictureCheck check = compared(frames, glimpses, {});
   if (!is_beside_the_picture(check)) return check;
   double best = std::max(0.4, check.follow + 0.2);
@@ -136,6 +141,13 @@ PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glim
     check.remedy = remedy.name;
   }
   return check;
+}
+
+PictureCheck follow_frames_later(const Trajectory& points, const std::vector<Glimpse>& glimpses,
+                                 int frames_later) {
+  Remedy later;
+  later.frames_later = frames_later;
+  return compared(by_number(points), glimpses, later);
 }
 
 bool is_beside_the_picture(const PictureCheck& check) {

@@ -2,6 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "extract/skeleton/trajectory.h"
@@ -21,6 +22,8 @@ struct Glimpse {
 class Glimpses {
  public:
   explicit Glimpses(const Trajectory& points);
+  /// Of these frames and those after them, in growing order.
+  explicit Glimpses(std::vector<int> first_frames) : wanted_(std::move(first_frames)) {}
   void add(const video::VideoFrame& frame);
   const std::vector<Glimpse>& all() const { return glimpses_; }
 
@@ -40,6 +43,10 @@ struct PictureCheck {
 /// that they name. `info` is the video's.
 PictureCheck check_with_picture(const Trajectory& points, const std::vector<Glimpse>& glimpses,
                                 const video::VideoInfo& info);
+
+/// The same if the points are of the frames this many later than their numbers; without a remedy.
+PictureCheck follow_frames_later(const Trajectory& points, const std::vector<Glimpse>& glimpses,
+                                 int frames_later);
 
 /// Whether enough was compared, and so little of it follows that the points cannot be the
 /// picture's.

@@ -69,6 +69,13 @@ std::vector<bool> absent_frames(const Trajectory& marks, BodyPart part) {
   return absent;
 }
 
+/// Probability that an estimate is within 3 % of the runner's size of the joint: of a normal error
+/// in the plane, with the variance that the regression says.
+double share_near(const Vector2d& variance_px2, double size_px) {
+  constexpr double kNear = 0.03;
+  return 1 - std::exp(-std::pow(kNear * size_px, 2) / (2 * variance_px2.mean()));
+}
+
 double median_rate_hz(const std::vector<double>& times_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
@@ -98,11 +105,13 @@ std::vector<TrajectoryFrame> assembled(const Trajectory& marks,
   for (const Measurement& r : measurements) {
     if (!r.inlier) continue;
     const double led_back = std::exp(-0.5 * r.round_trip_px * r.round_trip_px);
-    const double confidence =
-        kPredictedConfidence + (1 - kPredictedConfidence) * std::min(1.0, r.weight) * led_back;
     for (const int frame : {r.since_frame, r.frame}) {
-      Point& point = frames[static_cast<std::size_t>(frame - first)][r.part];
+      const auto i = static_cast<std::size_t>(frame - first);
+      Point& point = frames[i][r.part];
       if (!point.present()) continue;
+      const double sure = std::min(1.0, r.weight) * led_back *
+                          share_near(estimates[i][index(r.part)].variance_px2, size_px);
+      const double confidence = kPredictedConfidence + (1 - kPredictedConfidence) * sure;
       point.source = Source::tracked;
       point.confidence = std::max(point.confidence, confidence);
     }

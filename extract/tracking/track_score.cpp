@@ -202,7 +202,11 @@ std::string table_of(const std::vector<TrackScore>& scores) {
     text += fmt::format("| {} frames | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f}× |\n",
                         s.spacing_frames, s.noise_px, s.spline_px, s.prior_px, s.tracked_px,
                         s.tracked_p95_px, s.gain());
-  text += "\n| confidence | points | within 3 % of a leg |\n|---|---|---|\n";
+  return text + '\n' + confidence_table(scores);
+}
+
+std::string confidence_table(const std::vector<TrackScore>& scores) {
+  std::string text = "| confidence | points | within 3 % of a leg |\n|---|---|---|\n";
   for (std::size_t bin = 0; bin < 10; ++bin) {
     Reliability all;
     for (const TrackScore& s : scores) {

@@ -51,4 +51,7 @@ std::vector<TrackScore> score_tracking(const std::filesystem::path& video,
 /// of a leg from the truth.
 std::string table_of(const std::vector<TrackScore>& scores);
 
+/// The second of these tables alone.
+std::string confidence_table(const std::vector<TrackScore>& scores);
+
 }  // namespace stride::tracking

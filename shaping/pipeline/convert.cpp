@@ -20,6 +20,7 @@
 #include "extract/io/outputs.h"
 #include "extract/pose/weights.h"
 #include "extract/video/overlay.h"
+#include "extract/video/repeated.h"
 
 namespace stride::pipeline {
 namespace fs = std::filesystem;
@@ -28,6 +29,7 @@ namespace {
 constexpr const char* kTrajectory = ".trajectory.csv";
 constexpr const char* kCalibrated = ".calibrated.csv";
 constexpr const char* kOverlay = ".overlay.mp4";
+constexpr const char* kLoop = ".loop.mp4";
 
 bool ends_with(const fs::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
@@ -67,6 +69,10 @@ class Clip {
 
   Converted convert() {
     check_files();
+    if (is_loop()) {
+      video::write_repeated(input_, options_.loop, out(kLoop));
+      input_ = out(kLoop);
+    }
     // Before the inputs are compared with those of the last time.
     if (is_video(input_)) annotation::fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
@@ -91,6 +97,8 @@ class Clip {
   }
 
  private:
+  bool is_loop() const { return options_.loop > 1 && is_video(input_); }
+
   fs::path out(const char* ending) const { return options_.out / (result_.name + ending); }
 
   void check_files() const {
@@ -98,7 +106,8 @@ class Clip {
       return is_input ? fs::path() : out(ending);
     };
     check_outputs({input_, keypoints_file_of(input_), options_.model},
-                  {{"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
+                  {{"-o", is_loop() ? out(kLoop) : fs::path(), FileKind::video},
+                   {"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
                    {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
                    {"-o", out(".report.txt"), FileKind::report},
                    {"-o", out(".report.svg"), FileKind::svg},
@@ -137,6 +146,7 @@ class Clip {
     points.slow_motion = clip_.slow_motion;
     points.network = options_.network;
     points.landmarks = options_.landmarks;
+    points.person = options_.person;
     const tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
     result_.points = labelled.points;
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
@@ -164,7 +174,7 @@ class Clip {
         clip_.size.leg_m.value_or(0), clip_.size.metres_per_pixel.value_or(0),
         name_or_empty(kFacings, clip_.direction), clip_.slow_motion, clip_.force, k.count, k.foot,
         k.symmetric, kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
-    all += fmt::format(" {} {}", k.weight, options_.network);
+    all += fmt::format(" {} {} {}", k.weight, options_.network, options_.person);
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));
     return all;

@@ -28,6 +28,8 @@ struct ConvertOptions {
   int threads = 0;                             // 0: one for each processor
   bool network = false;  // the pose network also where there are clicks, as PointsOptions
   std::filesystem::path landmarks;  // its .tflite; empty: the installed one
+  int person = 0;  // whom it follows: 0 and 1 who moves in strides for longest, 2 the next, …
+  int loop = 0;    // above 1: each video is a loop, converted as if it played so many times
   bool pictures = true;
   bool overlay = false;  // also NAME.overlay.mp4 of a video: the tracked points on its frames
   bool again = false;    // also what has not changed

@@ -78,6 +78,11 @@ void add_convert_command(CLI::App& app) {
   convert->add_option("--scale", clip.size.metres_per_pixel, "metres per pixel");
   convert->add_option("--slow-motion", clip.slow_motion, "seconds of video a second of the runner")
       ->check(in_range(0.05, 100));
+  convert
+      ->add_option("--loop", options.loop,
+                   "each video is a loop, as a GIF of one stride or step: as if it played so many "
+                   "times; click NAME.loop.mp4 in the folder of results")
+      ->check(in_range(2, 100));
   add_direction_option(*convert, clip.direction);
   convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even")
       ->check(in_range(2, 200));
@@ -102,6 +107,11 @@ void add_convert_command(CLI::App& app) {
           "the pose network also for videos with clicks, which then correct it; MODEL.tflite: "
           "another one than the installed")
       ->expected(0, 1);
+  convert
+      ->add_option(
+          "--person", options.person,
+          "whom the pose network follows: 1 who moves in strides for longest, 2 the next, …")
+      ->check(in_range(1, 1000));
   convert->add_option("--threads", options.threads, "clips at a time (default: processors)")
       ->check(in_range(1, 1024));
   convert->add_flag("--overlay", options.overlay,

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/annotation/points_on_video.h"
+#include "extract/annotation/labelled_clip.h"
 #include "extract/io/error.h"
-#include "extract/pose/network_points.h"
 #include "tests/calibrate/rendered.h"
+#include "tests/calibrate/zero_clicks.h"
 #include "videos/truth.h"
 
 namespace stride {
@@ -30,14 +30,6 @@ Trajectory tracked(const videos::Clip& clip, unsigned seed) {
   clicked.click_seed = seed;
   const Keypoints clicks = videos::clicks(clicked);
   return tracking::track(video, {tracking::marks_of(clicks), clicks.slow_motion}).trajectory;
-}
-
-/// The shipped video as the pose network sees it, without a click.
-Trajectory seen_by_network(const videos::Clip& clip) {
-  const std::filesystem::path video =
-      std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / (clip.name + ".mp4");
-  const pose::NetworkPoints seen = pose::network_points(video);
-  return tracking::track(video, tracking::points_on(video, seen.detections, {})).trajectory;
 }
 
 /// Mean and largest magnitude of a number over all fits.
@@ -65,12 +57,11 @@ void measure(const Options& options, const std::string& name, const SagittalMode
   double worst_m = 0;
   for (unsigned seed = options.first; seed < options.first + options.seeds; ++seed) {
     videos::Clip clip = videos::clip(name);
-    if (options.from != "video" && options.from != "network") clip.seed = 1000 + seed;
+    if (options.from != "video") clip.seed = 1000 + seed;
     if (options.vary) clip = varied(clip, seed);
     const Trajectory trajectory =
-        options.from == "video" ? tracked(clip, seed)
-        : options.from == "network"
-            ? seen_by_network(clip)
+        options.from == "video"
+            ? tracked(clip, seed)
             : observed(clip, {options.from == "frames", clip.click_sd_px, seed});
     fit::FitOptions fit;
     if (options.known_leg) fit.leg_m = known_leg(clip, seed);
@@ -108,8 +99,10 @@ int main(int argc, char** argv) try {
   app.add_option("clips", options.clips, "clips of videos/")->capture_default_str();
   app.add_option("--from", options.from,
                  "clicks: eight frames a stride; frames: every frame, as noisy; video: the shipped "
-                 "video tracked from other clicks; network: from none (--seeds 1)")
-      ->check(CLI::IsMember({"clicks", "frames", "video", "network"}));
+                 "video tracked from other clicks; network: from none; corrections: from up to ten "
+                 "on the network's points (both once, "
+                 "as a Markdown table)")
+      ->check(CLI::IsMember({"clicks", "frames", "video", "network", "corrections"}));
   app.add_option("--seeds", options.seeds, "how many of each clip");
   app.add_option("--first", options.first, "the first seed");
   app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");
@@ -117,6 +110,17 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   const auto model =
       stride::sagittal_model(stride::osim::load_osim(stride::osim::default_model_file()));
+  if (options.from == "network" || options.from == "corrections") {
+    const bool corrected = options.from == "corrections";
+    fmt::print("{}", corrected ? stride::correction_head() : stride::ZeroClicks::table_head());
+    for (const std::string& name : options.clips) {
+      const stride::videos::Clip clip = stride::videos::clip(name);
+      fmt::print("{}", corrected ? stride::correction_row(clip, model)
+                                 : stride::without_clicks(clip, model).row(clip, model));
+      std::fflush(stdout);
+    }
+    return 0;
+  }
   fmt::print(
       "clip       fits  period, %     scale, %      speed, %      roll, deg     worst rms, cm "
       "inside: coords, period, scale  worst seed\n"

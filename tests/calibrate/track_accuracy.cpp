@@ -43,6 +43,12 @@ void measure(const std::string& clip, tracking::ScoreOptions options, const Sagi
   std::fflush(stdout);
 }
 
+std::vector<tracking::TrackScore> scores_of(const std::string& clip,
+                                            const tracking::ScoreOptions& options) {
+  const fs::path video = fs::path(STRIDE_SOURCE_DIR "/videos") / (clip + ".mp4");
+  return tracking::score_tracking(video, truth_of(video), options);
+}
+
 }  // namespace
 }  // namespace stride
 
@@ -54,7 +60,19 @@ int main(int argc, char** argv) try {
   app.add_option("--seeds", options.seeds, "how many sets of clicks each");
   app.add_option("--spacings", options.spacings, "frames between clicks");
   app.add_option("--noises", options.noises_px, "of the clicks, px");
+  bool confidence = false;
+  app.add_flag("--confidence", confidence,
+               "instead: what share of the points of each confidence is right, over all clips");
   CLI11_PARSE(app, argc, argv);
+  if (confidence) {
+    std::vector<stride::tracking::TrackScore> all;
+    for (const std::string& clip : clips) {
+      const auto scores = stride::scores_of(clip, options);
+      all.insert(all.end(), scores.begin(), scores.end());
+    }
+    fmt::print("{}", stride::tracking::confidence_table(all));
+    return 0;
+  }
   const auto model =
       stride::sagittal_model(stride::osim::load_osim(stride::osim::default_model_file()));
   std::string head = "| clip | noise, px |", rule = "|---|---|";

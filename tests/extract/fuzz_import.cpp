@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "extract/import/formats/formats.h"
+#include "extract/import/networks/networks.h"
 #include "extract/import/parsing/people.h"
 #include "tests/support/fuzz.h"
 
@@ -15,6 +16,10 @@ ImportedFile openpose(std::string_view content, const std::string& file, const I
 }
 ImportedFile json(std::string_view content, const std::string& file, const ImportOptions&) {
   return read_own_json(content, file);
+}
+ImportedFile ultralytics_labels(std::string_view content, const std::string& file,
+                                const ImportOptions&) {
+  return read_ultralytics_labels(content, file, 0);
 }
 
 void import(std::string_view content) {

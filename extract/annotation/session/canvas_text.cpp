@@ -110,6 +110,8 @@ std::string AnnotationCanvas::what_a_click_does() const {
     case Mode::click:
       break;
   }
+  if (!s_.asked_ && s_.options_.corrects)
+    return "Drag a point to where it belongs   n: the least certain one   Space: next phase frame";
   if (!s_.asked_)
     return "This frame is complete   Space: next phase frame   drag a point to move it";
   const ClickedFrame* here = s_.clicked(s_.frame_);

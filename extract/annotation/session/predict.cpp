@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "extract/annotation/asking.h"
+#include "extract/annotation/points_of_video.h"
 #include "extract/tracking/leg_identity.h"
 #include "extract/tracking/time_check.h"
 #include "extract/tracking/track.h"
@@ -40,9 +41,10 @@ double stride_frames(const tracking::Tracked& tracked, double rate_hz) {
 }  // namespace
 
 std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore& frames,
-                                  const std::atomic<bool>& given_up) {
+                                  const std::atomic<bool>& given_up,
+                                  const tracking::LabelledClip* network) {
   Prediction prediction;
-  if (!can_be_tracked(keypoints)) return prediction;
+  if (!network && !can_be_tracked(keypoints)) return prediction;
   while (!frames.complete()) {
     if (given_up) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -65,8 +67,15 @@ std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore&
     if (given_up) throw GivenUp();
   };
   try {
-    const Trajectory marks = tracking::marks_of(keypoints);
-    prediction.suspects = suspected_swaps(marks);
+    const Trajectory clicks = tracking::marks_of(keypoints);
+    Trajectory marks = clicks;
+    if (network) {
+      marks = tracking::mixed(*network, {clicks, keypoints.slow_motion}).marks;
+      for (TrajectoryFrame& frame : marks.frames)
+        frame.time_s = times_s[static_cast<std::size_t>(frame.frame)];
+    } else {
+      prediction.suspects = suspected_swaps(marks);
+    }
     const tracking::Tracked tracked =
         tracking::track(marks, video::decode_clip(marks, source, options));
     prediction.trajectory = tracked.trajectory;

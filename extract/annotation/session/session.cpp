@@ -128,8 +128,10 @@ void AnnotationSession::handle(const AnnotationEvent& event) {
 void AnnotationSession::set_prediction(Prediction prediction) {
   // The user's factor applied to the guess, not to the measured stride.
   if (prediction_.stride_frames == 0 && prediction.stride_frames > 0) step_factor_ = 1;
+  const bool first = prediction_.trajectory.frames.empty();
   prediction_ = std::move(prediction);
   passed_by_.clear();
+  if (options_.corrects && first && mode_ == Mode::click) go_to_worst();
 }
 
 void AnnotationSession::resize(cv::Size canvas_px) {
@@ -192,7 +194,9 @@ void AnnotationSession::press(const AnnotationEvent& event) {
     default:
       return tell("answer the question by a key first", true);
   }
-  if (const auto part = click_at(event.p_canvas)) {
+  auto part = click_at(event.p_canvas);
+  if (!part && options_.corrects) part = predicted_at(event.p_canvas);
+  if (part) {
     grip_ = {Grip::What::point, *part, event.p_canvas, false, state};
   } else {
     place_asked(event.p_canvas, state);
@@ -215,19 +219,25 @@ void AnnotationSession::release(const AnnotationEvent& event) {
   const Grip grip = std::exchange(grip_, {});
   if (grip.what != Grip::What::point) return;
   if (!grip.moved && (event.p_canvas - grip.from_canvas).norm() <= kDragThreshold) {
-    if (asked_ && is_double_click(grip))
+    if (asked_ && !options_.corrects && is_double_click(grip))
       return tell(
           fmt::format("a double click? {} is there already; click again to put {} there too",
                       spoken(grip.part, near_leg()), spoken(*asked_, near_leg())),
           true);
     if (asked_) return place_asked(event.p_canvas, grip.state);
     last_ = grip.part;
+    if (options_.corrects) asked_ = grip.part;
     return;
   }
-  const ClickedFrame* here = clicked(frame_);
-  if (!here || !here->placed(grip.part)) return;
   // The point keeps its offset from the mouse, so that grabbing does not move it.
   const Eigen::Vector2d by_px = (event.p_canvas - grip.from_canvas) / view_.scale;
+  const ClickedFrame* here = clicked(frame_);
+  if (!here || !here->placed(grip.part)) {
+    const TrajectoryFrame* ghost = options_.corrects ? predicted(frame_) : nullptr;
+    if (!ghost || !(*ghost)[grip.part].present()) return;
+    place(grip.part, view_.inside((*ghost)[grip.part].p_px + by_px), grip.state);
+    return advance(grip.part);
+  }
   place(grip.part, view_.inside((*here)[grip.part]->p_px + by_px), (*here)[grip.part]->state);
 }
 
@@ -256,8 +266,27 @@ std::optional<BodyPart> AnnotationSession::click_at(const Eigen::Vector2d& canva
   return nearest;
 }
 
+std::optional<BodyPart> AnnotationSession::predicted_at(const Eigen::Vector2d& canvas) const {
+  const TrajectoryFrame* here = predicted(frame_);
+  const ClickedFrame* clicks = clicked(frame_);
+  std::optional<BodyPart> nearest;
+  double least = kGripRadius;
+  for (const BodyPart part : order()) {
+    if (!here || !(*here)[part].present() || (clicks && (*clicks)[part])) continue;
+    const double distance = (view_.to_canvas((*here)[part].p_px) - canvas).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = part;
+    }
+  }
+  return nearest;
+}
+
 void AnnotationSession::place_asked(const Eigen::Vector2d& canvas, ClickState state) {
-  if (!asked_) return tell("every part of this frame is clicked; choose one by its digit", true);
+  if (!asked_)
+    return tell(options_.corrects ? "drag the point that is wrong, or n: the worst one"
+                                  : "every part of this frame is clicked; choose one by its digit",
+                true);
   const BodyPart part = *asked_;
   place(part, view_.inside(view_.to_image(canvas)), state);
   advance(part);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "extract/annotation/checks.h"
 #include "extract/annotation/journal.h"
 #include "extract/annotation/session/keys.h"
 #include "extract/annotation/session/view.h"
@@ -38,6 +39,7 @@ struct Prediction {
 struct AnnotationOptions {
   cv::Size canvas_px{1280, 860};
   bool hips = false, head = false;  // also ask for them
+  bool corrects = false;            // clicks correct a network's points, the worst first
 };
 
 /// `stride annotate` without a window: events in, a picture and keypoints out. It asks for one part
@@ -103,6 +105,7 @@ class AnnotationSession {
   void finish_typing();
   void command(Command command, int key);
   void step(Command command);
+  void go_to_worst();
   void choose_part(int digit);
   void mark_absent();
   void accept_ghost();
@@ -131,6 +134,7 @@ class AnnotationSession {
   const cv::Mat& shown_area();   // the part that the view shows, without drawings
   const ClickedFrame* clicked(int frame) const;
   const TrajectoryFrame* predicted(int frame) const;
+  std::optional<BodyPart> predicted_at(const Eigen::Vector2d& canvas) const;
   std::optional<BodyPart> click_at(const Eigen::Vector2d& canvas) const;
   std::vector<BodyPart> order() const;
   double phase_step() const;
@@ -151,9 +155,10 @@ class AnnotationSession {
   std::optional<int> range_from_;
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Constant(-1);  // on the canvas
   Eigen::Vector2d floor_from_ = Eigen::Vector2d::Zero();
-  double step_factor_ = 1;      // the user's factor for the spacing of phase frames
-  std::vector<int> passed_by_;  // worst frames seen since the last prediction
-  int shown_ = -1;              // the frame of shown_image_
+  double step_factor_ = 1;                 // the user's factor for the spacing of phase frames
+  std::vector<int> passed_by_;             // worst frames seen since the last prediction
+  std::vector<WorstPoint> passed_points_;  // of a network: worst points that were left as they are
+  int shown_ = -1;                         // the frame of shown_image_
   cv::Mat shown_image_, shown_area_;
   View area_view_;  // of shown_area_
   int area_frame_ = -1;

@@ -27,6 +27,10 @@ void AnnotationSession::place(BodyPart part, const Eigen::Vector2d& p_px, ClickS
 }
 
 void AnnotationSession::advance(BodyPart after) {
+  if (options_.corrects) {
+    asked_.reset();
+    return tell(message_ + "; n: the next worst point");
+  }
   asked_ = next_missing(keypoints(), frame_, order(), after);
   if (asked_) return;
   const int next = next_phase_frame(keypoints(), frame_, phase_step());
@@ -39,8 +43,9 @@ void AnnotationSession::advance(BodyPart after) {
 }
 
 void AnnotationSession::ask_first_missing() {
-  asked_ = next_missing(keypoints(), frame_, order(), std::nullopt);
   last_.reset();
+  if (options_.corrects) return asked_.reset();
+  asked_ = next_missing(keypoints(), frame_, order(), std::nullopt);
 }
 
 void AnnotationSession::nudge(const Eigen::Vector2d& move_px) {

@@ -235,6 +235,16 @@ void AnnotationSession::command(Command command, int key) {
   }
 }
 
+void AnnotationSession::go_to_worst() {
+  const auto worst = worst_point(prediction_.trajectory, keypoints(), order(), passed_points_);
+  if (!worst) return tell("no other point is left", false);
+  passed_points_.push_back(*worst);
+  go_to(worst->frame);
+  asked_ = worst->part;
+  tell(fmt::format("the least certain point: {}; click where it is, or n: the next",
+                   spoken(worst->part, near_leg())));
+}
+
 void AnnotationSession::step(Command command) {
   const auto& clicked_frames = keypoints().frames;
   switch (command) {
@@ -259,6 +269,7 @@ void AnnotationSession::step(Command command) {
     case Command::next_phase:
       return go_to(next_phase_frame(keypoints(), frame_, phase_step()));
     case Command::next_worst: {
+      if (options_.corrects) return go_to_worst();
       const auto worst = worst_frame(prediction_.trajectory, keypoints(), order(), passed_by_);
       if (!worst) return tell("everything else has been followed in the picture");
       passed_by_.push_back(*worst);

@@ -174,6 +174,7 @@ bool JsonValue::is_array() const { return json_->is_array(); }
 bool JsonValue::is_object() const { return json_->is_object(); }
 bool JsonValue::is_number() const { return json_->is_number(); }
 bool JsonValue::is_text() const { return json_->is_string(); }
+bool JsonValue::is_null() const { return json_->is_null(); }
 bool JsonValue::has(std::string_view key) const {
   return json_->is_object() && json_->contains(key);
 }

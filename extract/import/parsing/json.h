@@ -36,12 +36,13 @@ class JsonValue {
   bool is_object() const;
   bool is_number() const;
   bool is_text() const;
+  bool is_null() const;
   bool has(std::string_view key) const;  // false where this is no object
 
   std::size_t size() const;  // of an array
   JsonValue operator[](std::size_t element) const;
   JsonValue operator[](std::string_view key) const;
-  std::vector<std::string> keys() const;
+  std::vector<std::string> keys() const;  // of an object
 
   double number() const;  // finite
   int integer() const;

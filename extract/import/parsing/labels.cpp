@@ -129,6 +129,12 @@ std::vector<std::string> layout_of(std::size_t points) {
       names = coco;
       names.insert(names.end(), {"", "", "midhip", "bigtoe_l", "bigtoe_r"});
       break;
+    case 33:
+      names = {"nose", "", "", "", "", "", "", "ear_l", "ear_r"};
+      names.resize(23);
+      names.insert(names.end(), {"hip_l", "hip_r", "knee_l", "knee_r", "ankle_l", "ankle_r", "", "",
+                                 "toe_l", "toe_r"});
+      break;
     case 133:
       names = coco;
       names.insert(names.end(), {"bigtoe_l", "", "", "bigtoe_r"});

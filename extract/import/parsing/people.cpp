@@ -109,7 +109,8 @@ Joined join(const DetectedPeople& people) {
   std::vector<Track>& tracks = joined.tracks;
   for (const DetectedPerson& person : people) {
     if (!has_points(person)) continue;
-    const double height_px = std::max(box(person.points).sizes().y(), 1.0);
+    const double least = person.width_px == 1 ? 1e-3 : 1;  // a share of the picture, or px
+    const double height_px = std::max(box(person.points).sizes().y(), least);
     Track* track = continued(tracks, person, height_px);
     if (!track && std::ranges::any_of(tracks, [&](const Track& t) {
           return !person.id.empty() && t.id == person.id;

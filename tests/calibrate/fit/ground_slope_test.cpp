@@ -48,6 +48,30 @@ TEST(GroundSlope, OfAMarkedFloorLineComesFirst) {
   EXPECT_EQ(fit::ground_roll(trajectory)->mean, -0.05);
 }
 
+/// The runner stays in the middle of the picture, or moves in it as the background does.
+Trajectory followed(double slope_rad, double tilt_px_a_frame) {
+  Trajectory trajectory = passing(slope_rad, 20, 0.3);
+  for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
+    TrajectoryFrame& frame = trajectory.frames[i];
+    const double tilted_px = tilt_px_a_frame * static_cast<double>(i);
+    frame[BodyPart::pelvis] = {
+        {320, 180 + 4 * std::sin(0.6 * static_cast<double>(i)) + tilted_px}, Source::tracked, 0.9};
+    frame.camera_px.y() += tilt_px_a_frame;
+  }
+  return trajectory;
+}
+
+TEST(GroundSlope, IsNotKnownFromACameraThatTilts) {
+  EXPECT_FALSE(fit::camera_turns(followed(2 * kDegree, 0)));
+  EXPECT_TRUE(fit::ground_roll(followed(2 * kDegree, 0)).has_value());
+  const Trajectory tilting = followed(0, 1.4);  // four degrees, as if the ground fell
+  EXPECT_TRUE(fit::camera_turns(tilting));
+  EXPECT_FALSE(fit::ground_roll(tilting).has_value());
+  Trajectory marked = tilting;
+  marked.floor_roll_rad = 0.01;
+  EXPECT_EQ(fit::ground_roll(marked)->mean, -0.01);
+}
+
 TEST(GroundSlope, IsNotKnownFromACameraThatStandsOrSwaysOrIsNotMeasured) {
   EXPECT_FALSE(fit::ground_roll(passing(0, 2, 0.3)).has_value());  // less than half a frame
   EXPECT_FALSE(fit::ground_roll(passing(0, 4, 5)).has_value());    // not within a degree

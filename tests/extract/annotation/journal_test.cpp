@@ -100,6 +100,43 @@ TEST(AnnotationJournal, FoldsWhenItCloses) {
   EXPECT_EQ(load_keypoints(file).frames.at(3)[BodyPart::knee_r]->p_px.x(), 12.25);
 }
 
+TEST(AnnotationJournal, UndoesWhatAnEarlierWindowDid) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  {
+    annotation::AnnotationJournal journal(file, fresh());
+    journal.apply(click(3, BodyPart::pelvis, 10));
+    journal.apply(click(3, BodyPart::pelvis, 20));
+  }
+  {
+    annotation::AnnotationJournal journal(file, fresh());
+    journal.apply(click(4, BodyPart::head, 30));
+  }
+  annotation::AnnotationJournal journal(file, fresh());
+  EXPECT_EQ(journal.recovered(), 0);
+  ASSERT_TRUE(journal.undo());
+  EXPECT_FALSE(journal.document().keypoints().frames.contains(4));
+  ASSERT_TRUE(journal.undo());
+  EXPECT_EQ(journal.document().keypoints().frames.at(3)[BodyPart::pelvis]->p_px.x(), 10);
+  ASSERT_TRUE(journal.undo());
+  EXPECT_TRUE(journal.document().keypoints().frames.empty());
+  EXPECT_FALSE(journal.undo());
+}
+
+TEST(AnnotationJournal, UndoesNothingInAFileThatWasEditedMeanwhile) {
+  const TemporaryFolder folder;
+  const auto file = folder / "run.keypoints.json";
+  {
+    annotation::AnnotationJournal journal(file, fresh());
+    journal.apply(click(3, BodyPart::pelvis, 10));
+  }
+  Keypoints edited = load_keypoints(file);
+  edited.notes = "by another program";
+  save(edited, file);
+  annotation::AnnotationJournal journal(file, fresh());
+  EXPECT_FALSE(journal.undo());
+}
+
 TEST(AnnotationJournal, LeavesNoFileWhereNothingWasClicked) {
   const TemporaryFolder folder;
   { annotation::AnnotationJournal journal(folder / "run.keypoints.json", fresh()); }

@@ -117,6 +117,21 @@ TEST(PointsOnVideo, OfATrimmedCopyDoNotFollowIt) {
   EXPECT_EQ(told(early, options).marked.marks.frames.front().frame, 6);
 }
 
+TEST(PointsOnVideo, OfAFileThatDoesNotCountADropout) {
+  imports::Detections renumbered = truth();
+  auto& frames = renumbered.frames;
+  frames.erase(frames.begin() + 30, frames.begin() + 43);
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].frame = static_cast<int>(i);
+  const Told result = told(renumbered);
+  EXPECT_THAT(result.warnings, HasSubstr("leap at frame 30"));
+  EXPECT_THAT(result.warnings, HasSubstr("does not count 13 frames"));
+  EXPECT_THAT(result.warnings, Not(HasSubstr("no points on the last")));
+  const auto& marks = result.marked.marks.frames;
+  EXPECT_EQ(marks[29].frame, 29);
+  EXPECT_EQ(marks[30].frame, 43);
+  EXPECT_EQ(marks.back().frame, 95);
+}
+
 TEST(PointsOnVideo, OutsideThePictureAreLeftOutWhereTheyAreFew) {
   imports::Detections spoilt = truth();
   for (int i = 0; i < 4; ++i)

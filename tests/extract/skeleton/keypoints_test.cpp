@@ -24,6 +24,7 @@ Keypoints example() {
   k.trim = FrameRange{3, 90};
   k.floor = FloorLine{{0, 300}, {639, 301.5}};
   k.notes = "windy";
+  k.corrects_network = true;
   k.frames[5].time_s = 0.1;
   k.frames[5][BodyPart::pelvis] = {{320.25, 180.5}, ClickState::seen, {}};
   k.frames[5][BodyPart::knee_l] = {{300, 200}, ClickState::estimated, {}};
@@ -47,6 +48,7 @@ TEST(Keypoints, ReadBackAsTheyWereSaved) {
   EXPECT_EQ(k.near_leg, Side::right);
   EXPECT_EQ(k.slow_motion, 4);
   EXPECT_EQ(k.treadmill, true);
+  EXPECT_TRUE(k.corrects_network);
   EXPECT_EQ(k.trim->last, 90);
   EXPECT_EQ(k.floor->to_px, Eigen::Vector2d(639, 301.5));
   EXPECT_EQ(k.notes, "windy");

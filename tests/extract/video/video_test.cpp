@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "extract/io/file.h"
+#include "extract/video/repeated.h"
 #include "extract/video/video_writer.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
@@ -123,6 +124,18 @@ TEST(Video, SaysHowManyFramesOfATruncatedFileWereReadable) {
   EXPECT_LT(frames.size(), 50u);
   EXPECT_THAT(video.shortfall(),
               testing::HasSubstr(fmt::format("{} of the 50 announced frames", frames.size())));
+}
+
+TEST(Repeated, PlaysALoopAsOftenAsAsked) {
+  const TemporaryFolder folder;
+  write_ramp(folder / "loop.mp4", 6, {64, 48}, 12);
+  video::write_repeated(folder / "loop.mp4", 3, folder / "long.mp4");
+  video::Video video(folder / "long.mp4");
+  const auto frames = all_frames(video);
+  ASSERT_EQ(frames.size(), 18u);
+  EXPECT_NEAR(frames[17].time_s, 17 / 12.0, 1e-3);
+  for (const int i : {0, 6, 13})
+    EXPECT_NEAR(cv::mean(frames[i].image)[0] - cv::mean(frames[0].image)[0], 4 * (i % 6), 2);
 }
 
 TEST(VideoWriter, LeavesNothingUnfinishedBehind) {
