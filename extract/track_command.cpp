@@ -75,7 +75,7 @@ std::string others(const imports::Detections& detections) {
   return text;
 }
 
-/// The points of another program or of a pose model on the frames of the video.
+/// The points of another program or a pose network on the frames of the video.
 tracking::LabelledClip detected(const Request& request) {
   require(request.import_from.empty() || !request.pose.wanted,
           "--import {} and --pose {}: give one of them", request.import_from.string(),

@@ -25,8 +25,8 @@ double variance(const std::vector<Keyframe>& keyframes, PosePart part) {
   return total;
 }
 
-/// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so that it is
-/// compared by its height.
+/// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so it is compared by
+/// its height.
 double closeness(const Potential& potential, const Pose& pose, const Pose& target) {
   const bool by_variance = potential.function == InverseDistance::pf4;
   double sum = 0;

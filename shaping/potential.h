@@ -11,8 +11,8 @@
 
 namespace stride {
 
-/// Which keyframe a pose is compared with: that of the moment, Φ(s, phase), or the nearest one,
-/// Φ(s) = max over them.
+/// The keyframe that a pose is compared with: the one at the current phase, Φ(s, phase), or the
+/// nearest one, Φ(s) = max over them.
 enum class PotentialIndex { time, nearest };
 inline constexpr Names<PotentialIndex> kPotentialIndices({{PotentialIndex::time, "time"},
                                                           {PotentialIndex::nearest, "nearest"}});

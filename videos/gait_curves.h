@@ -16,9 +16,9 @@ struct Harmonics {
   double operator()(double phase) const;
 };
 
-/// How somebody runs: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee −
-/// flexion, ankle + dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot
-/// strike, the left leg half a stride later.
+/// A gait: sagittal angles in degrees with OpenSim's signs (hip + flexion, knee − flexion, ankle +
+/// dorsiflexion, pelvis tilt − forward), of the right leg; φ = 0 at the right foot strike, the left
+/// leg half a stride later.
 struct GaitCurves {
   std::string name, source;
   double period_s = 0;

@@ -31,8 +31,7 @@ struct Patch {
   int group = 0;               // patches of one group follow each other and share an outline
 };
 
-/// Paints patches over one another on an image of floats, one sample at (u + du, v + dv) of each
-/// pixel.
+/// Paints patches in order on a float image, with one sample of each pixel at (u + du, v + dv).
 void paint(const std::vector<Patch>& patches, const PinholeCamera& camera, double du, double dv,
            cv::Mat& image);
 

@@ -4,8 +4,8 @@
 
 namespace stride::videos {
 
-/// A pinhole camera beside the way, looking across it. Axes of the world as in skeleton.h; image
-/// as in extract/trajectory.h.
+/// A pinhole camera beside the track, looking across it. World axes as in skeleton.h, image axes as
+/// in extract/skeleton/trajectory.h.
 struct PinholeCamera {
   int width_px = 640, height_px = 360;
   double focal_px = 1800;

@@ -20,12 +20,12 @@ struct ShadowBlob {
 /// The runner's shadow under a high sun in front and to the side.
 std::vector<ShadowBlob> cast_shadow(const Skeleton& skeleton);
 
-/// Where the runner runs. `z` here grows toward the camera; the runner runs at z = 0.
+/// The scene of a clip. `z` grows towards the camera; the runner runs at z = 0.
 class Scenery {
  public:
   virtual ~Scenery() = default;
-  /// Paints every pixel of an image of floats, one sample at (u + du, v + dv) of each.
-  /// `belt_m`: how far the belt of a treadmill has run.
+  /// Paints every pixel of a float image, with one sample at (u + du, v + dv). `belt_m`: distance
+  /// that a treadmill's belt has moved.
   void paint(const PinholeCamera& camera, double du, double dv,
              const std::vector<ShadowBlob>& shadow, double belt_m, cv::Mat& image) const;
 

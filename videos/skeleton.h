@@ -39,7 +39,7 @@ struct Deviation {
   std::array<double, 2> hip{}, knee{}, ankle{};
 };
 
-/// The runner at a phase of the stride, hips at (x, height).
+/// Poses the runner at a phase of the stride, with the hips at (x, height).
 Skeleton pose(const GaitCurves& gait, const Proportions& proportions, double phase, double x_m,
               double pelvis_height_m, const Deviation& deviation = {});
 
@@ -54,8 +54,8 @@ struct Grounding {
 };
 Grounding ground(const GaitCurves& gait, const Proportions& proportions);
 
-/// The gait with a height of the pelvis that keeps the lower shoe on the ground, but for a hop of
-/// `hop_m` in each flight: where legs or angles are not those with which the height was measured.
+/// Replaces the pelvis height by one that keeps the lower shoe on the ground, plus a hop of `hop_m`
+/// in each flight; for gaits whose height was not measured with these legs and angles.
 GaitCurves standing(GaitCurves gait, const Proportions& proportions, double hop_m);
 
 }  // namespace stride::videos

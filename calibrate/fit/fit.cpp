@@ -44,7 +44,7 @@ StrideFit fit_stride(const Marks& observations, const SagittalModel& model,
   FitProblem problem{observations, model, Directions(model), options, {}};
   StrideFit best;
   best.failure = "no stride repeats: too few marks of pelvis, knees and ankles";
-  // Several starts: a stride that is right explains more than a third of it or three of them.
+  // Several initial guesses: the right period explains more than a third of it or three of it.
   for (const StridePeriod& guess : guess_periods(observations, 3)) {
     StrideFit fit = start(problem, guess);
     settle(problem, fit, Loss::cauchy, 2, kCoarse);

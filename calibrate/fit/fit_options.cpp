@@ -18,7 +18,7 @@ FitOptions fit_options(const RunnerSize& size) {
   FitOptions options;
   if (size.height_m) {
     check("height", *size.height_m, 0.4, 3);
-    // Of a known height only the proportion is uncertain: 0.476 (measured runners) to 0.491
+    // For a known height only the proportion is uncertain: 0.476 (measured runners) to 0.491
     // (Drillis and Contini 1966).
     options.leg_m = {0.4835 * *size.height_m, 0.025};
   }

@@ -29,7 +29,7 @@ std::optional<Background> background_of(const Trajectory& trajectory) {
     }
   if (displacements.size() < 8 || std::abs(passed.x()) < 0.5 * trajectory.width_px)
     return std::nullopt;
-  // y = x tan φ, and the camera's own ups and downs; Cauchy's weights against slipped flow.
+  // y = x tan φ plus vertical camera motion; Cauchy's weights against outliers of the flow.
   Background background;
   double& tangent = background.tangent;
   double scale = 1, xx = 0;
@@ -48,7 +48,7 @@ std::optional<Background> background_of(const Trajectory& trajectory) {
     scale = std::max(kSigmaPerMedian * median(left), 0.02);
   }
   background.scatter_px = scale;
-  // Sway lasts some frames: five neighbours count as one.
+  // Camera sway is correlated over frames: five neighbours count as one.
   background.sd = std::max(kLeast, std::sqrt(5.0 / xx) * scale);
   return background;
 }

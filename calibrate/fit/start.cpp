@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The pelvis of every frame where most of its marks put it: one wrong mark moves nothing.
+/// Sets the pelvis of every frame to the median over its points, so one outlier has no effect.
 void place_pelvis(const FitProblem& problem, StrideFit& fit) {
   std::vector<std::vector<double>> x(fit.pelvis_px.size()), y(fit.pelvis_px.size());
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) pelvis.setZero();

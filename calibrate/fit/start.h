@@ -8,7 +8,8 @@ namespace stride::fit {
 /// Where a guessed period starts.
 StrideFit start(const FitProblem& problem, const StridePeriod& guess);
 
-/// How many harmonics the marks can tell at all: two for a stride seen at five phases.
+/// The largest number of harmonics that the points can determine: two for a stride seen at five
+/// phases.
 int max_harmonics(const Marks& observations, const Runner& runner);
 
 }  // namespace stride::fit

@@ -105,7 +105,7 @@ bool is_normalised(const Trajectory& trajectory) {
   });
 }
 
-/// How far the ankles swing, in legs: a runner's reach two thirds fore and aft.
+/// Amplitude of the ankles in leg lengths; a runner's is about two thirds fore and aft.
 void judge_view(const Trajectory& trajectory, Verdict& verdict) {
   double leg = 0, fore_aft = 0, vertical = 0;
   for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},

@@ -19,7 +19,7 @@ struct LabelledClip {
 LabelledClip clicks_on(const std::filesystem::path& video,
                        const std::filesystem::path& keypoints_file, double slow_motion);
 
-/// Follows the marks through the frames of their video, which is decoded once.
+/// Tracks the labelled points through their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const LabelledClip& labelled,
               const TrackOptions& options = {}, const video::DecodeOptions& decode_options = {});
 

@@ -30,7 +30,7 @@ Trajectory marks_of(const imports::Detections& detections) {
   return marks;
 }
 
-/// Labels of a person are far apart and right; a detector's points are on most frames.
+/// A person's labels are sparse and correct; a detector's points are on most frames.
 bool are_labels(const Trajectory& marks) {
   const auto n = static_cast<int>(marks.frames.size());
   return n < 2 || marks.frames.back().frame - marks.frames.front().frame >= 2 * (n - 1);

@@ -30,7 +30,7 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
 /// The text in UTF-8 without a byte order mark, lines ending in LF.
 std::string decoded_text(std::string_view content, const std::string& file);
 
-/// A cell, or a line, without the blanks, tabs and carriage returns around it.
+/// A cell or line without surrounding blanks, tabs and carriage returns.
 std::string_view trimmed(std::string_view text);
 
 /// A finite number, or NaN for an empty cell and for what pandas, R and Excel write where there is

@@ -5,8 +5,8 @@
 
 namespace stride::tracking {
 
-/// The cubic spline through points in the plane, with "not a knot" ends; through fewer than four
-/// points the polynomial, outside the points their straight continuation.
+/// The cubic spline through points in the plane with not-a-knot ends; for fewer than four points
+/// the interpolating polynomial; linear outside the points.
 class CubicSpline {
  public:
   /// `t` grows strictly and is as long as `p`, at least 1.

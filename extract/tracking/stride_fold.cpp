@@ -97,9 +97,9 @@ std::optional<StrideFold> fold_stride(const std::vector<std::vector<JointPair>>&
   std::vector<StridePeriod> periods =
       stride_periods(joints, times_s, LegNames::unknown, has_aliases(times_s) ? kMostAlike : 1);
   if (periods.empty()) return std::nullopt;
-  // Seen a little from the front or the back the legs differ: two strides then pass for one. With
-  // names, a wrong factor of two puts the legs in step, which fits badly; so does a period that
-  // only the spacing of the frames makes likely.
+  // Seen slightly from the front or the back the legs differ, and two strides can pass for one.
+  // With labels, a wrong factor of two puts the legs in phase, which fits badly, as does a period
+  // that is an alias of the frame spacing.
   const StridePeriod best_period = periods.front();
   if (const double half_s = best_period.period_s / 2; half_s >= kShortestOfRunners_s)
     periods.push_back({half_s, best_period.cost - period_improbability(best_period.period_s) +

@@ -185,7 +185,7 @@ Followed followed(gaussian_process::GaitPrior prior, const Trajectory& marks,
         },
         flow_options(video::body_size_px(marks)));
     add_flow(result.measurements, result.stretches, weights);
-    // The prediction has a period of its own, which says nothing new.
+    // The prediction has its own period, which is no new information.
     const double before_s = prior.legs.period_s;
     prior = gaussian_process::with_period_of(prior, observations_of(result.measurements, times_s));
     if (std::abs(prior.legs.period_s / before_s - 1) < kSettled) break;

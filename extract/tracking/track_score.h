@@ -11,14 +11,14 @@
 
 namespace stride::tracking {
 
-/// Tracking of one clip from clicks that were made from its truth, against that truth: knees and
-/// ankles, every frame from the first click to the last.
 /// How far points of one confidence are from the truth.
 struct Reliability {
   int points = 0;
   int near = 0;  // within 3 % of a leg's length
 };
 
+/// Accuracy of tracking a clip from simulated clicks on its truth: knees and ankles, every frame
+/// from the first click to the last.
 struct TrackScore {
   int spacing_frames = 0;  // frames between clicks
   double noise_px = 0;     // standard deviation of a click, each coordinate

@@ -91,7 +91,7 @@ void require_file(const fs::path& file) {
   throw Error(fmt::format("{}: no such video", name));
 }
 
-/// FFmpeg's own lines on stderr say less than our errors do.
+/// Silences FFmpeg's messages; our errors say more.
 void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); }
 
 }  // namespace

@@ -44,7 +44,8 @@ nlohmann::ordered_json to_json(const simulation::BenchResult& r) {
           {"resident_MiB", r.resident_MiB}};
 }
 
-/// One object; of two engines the fields are those of the default one, and `engines` holds both.
+/// One JSON object. For two engines the fields are those of the default one, and `engines` holds
+/// both.
 nlohmann::ordered_json to_json(const std::vector<simulation::BenchResult>& results) {
   nlohmann::ordered_json object = to_json(results.back());
   if (results.size() > 1) {

@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Calls `work` again and again for so many seconds; returns seconds a call.
+/// Calls `work` repeatedly for so many seconds; returns seconds per call.
 template <typename Work>
 double time_of(double seconds, const Work& work) {
   work();
@@ -22,8 +22,8 @@ double time_of(double seconds, const Work& work) {
   return passed / calls;
 }
 
-/// Multiplications and additions of the matrix products in one update. A weight costs two of them a
-/// sample forward, as much by its own gradient, as much by the gradient of what is below it.
+/// Multiplications and additions of the matrix products in one update. A weight costs two of them
+/// for each sample forward, two for its own gradient, and two for the gradient of the layer below.
 double operations(const AgentOptions& options, int states, int actions) {
   struct Weights {
     double all = 0, first = 0;

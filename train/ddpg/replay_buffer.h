@@ -18,8 +18,8 @@ enum class Outcome : std::uint8_t {
   ended        // no decision: the record only holds the last state of an episode
 };
 
-/// Samples as the update wants them, one column or element a sample. Rewards are n-step sums
-/// including shaping; `discount` is γ to the number of steps, 0 after a fall.
+/// Samples for an update, a column or element for each. Rewards are n-step sums including shaping;
+/// `discount` is γ to the power of the number of steps, 0 after a fall.
 template <typename Scalar>
 struct Batch {
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> states, actions, next_states;

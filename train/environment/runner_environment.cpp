@@ -19,7 +19,7 @@ simulation::EngineOptions engine_options(const RunnerOptions& options) {
   return engine;
 }
 
-/// The depth to which the feet sink in quiet standing, m.
+/// Depth of the feet in the soft ground in quiet standing, m.
 constexpr double kStandingDepth_m = 0.025;
 
 double deepest_contact(const osim::Model& model, const simulation::RunnerKinematics& kinematics) {

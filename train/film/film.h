@@ -52,7 +52,7 @@ FilmModel film_model(const osim::Model& model);
 cv::Mat film_frame(const FilmModel& model, const RunnerPicture& picture,
                    const FilmOptions& options = {});
 
-/// Where that frame shows a point of the ground's axes, px.
+/// Projects a point in axes of the ground into that frame, px.
 simulation::PlanarVector film_place(const RunnerPicture& picture, const FilmOptions& options,
                                     simulation::PlanarVector p_m);
 

@@ -34,7 +34,7 @@ class Canvas {
   /// A limb's bone from a to b, thicker at its ends, with a rim.
   void bone(simulation::PlanarVector a, simulation::PlanarVector b, double end_m, double waist_m,
             const cv::Scalar& fill, const cv::Scalar& rim);
-  /// What clothes the bones: a tapered piece of the body's outline.
+  /// A tapered piece of the body's outline around the bones.
   void flesh(simulation::PlanarVector a, simulation::PlanarVector b, double radius_a_m,
              double radius_b_m, const cv::Scalar& colour);
   /// A thin tendon with a belly, along the points of a muscle's path.

@@ -13,8 +13,8 @@
 
 namespace stride::ppo {
 
-/// What a slot remembers from one decision to the next, as a checkpoint keeps it. The environment
-/// is not in it: it is put back by repeating the episode's actions.
+/// The state of a slot between decisions, as in a checkpoint. It does not contain the environment,
+/// which is restored by repeating the episode's actions.
 struct SlotState {
   Random random;
   bool running = false;

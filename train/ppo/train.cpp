@@ -173,7 +173,7 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
   try {
     save_checkpoint(training, run);
     // After the checkpoint, so that a run that is continued with more decisions has no row that an
-    // uninterrupted one would not have.
+    // uninterrupted run would not have.
     if (summary.finished && progress.decisions > progress.last_row_decisions) evaluate();
     if (progress.rows > 0) journal.save_rows();
   } catch (const Error& error) {

@@ -30,7 +30,7 @@ struct Training {
   Sums sums;
 };
 
-/// The beginning of a run. `potential` may be null, and must outlive the training.
+/// Starts a run. `potential` may be null and must outlive the training.
 Training start_training(const training::TrainOptions& options, const Potential* potential,
                         const training::EnvironmentFactory& make_environment);
 

@@ -39,7 +39,7 @@ double resident_MiB() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// One engine that lives through one episode after another.
+/// An engine that runs one episode after another.
 class Runner {
  public:
   Runner(const std::string& name, const osim::Model& model, const BenchOptions& options,

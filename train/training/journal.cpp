@@ -61,7 +61,7 @@ void Journal::save_rows() const {
   save(timing_, run_ / "timing.csv");
 }
 
-/// On a terminal the line replaces itself; elsewhere there is one a minute.
+/// On a terminal the line is rewritten; elsewhere one is printed every minute.
 void Journal::tell(const TrainOptions& options, const Progress& progress, double steps_per_s,
                    double decisions_per_s) {
   if (messages_ == nullptr) return;

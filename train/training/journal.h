@@ -15,7 +15,7 @@
 
 namespace stride::training {
 
-/// The files that grow while training, and the line that tells how it goes.
+/// The files that grow during training, and the progress line.
 class Journal {
  public:
   /// `curve`: an empty one. `messages` may be null.
@@ -42,7 +42,7 @@ class Journal {
     keep_as("best.safetensors");
   }
 
-  /// Does what writes to the disk; a failure is reported, and training goes on.
+  /// Runs a function that writes to the disk; a failure is reported, and training continues.
   template <typename Write>
   void keep(const Write& write) {
     try {

@@ -16,7 +16,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Removes what a kill left half written (write_file_atomically()).
+/// Removes files that a kill left half written (write_file_atomically()).
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 }  // namespace stride::training

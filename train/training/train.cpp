@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Updates that are due by now: a fixed share of the decisions after the warm-up.
+/// Number of updates due: a fixed ratio to the decisions after the warm-up.
 std::int64_t updates_due(const TrainOptions& options, const Progress& progress) {
   const auto learned = static_cast<double>(progress.decisions - options.run.warm_up);
   return static_cast<std::int64_t>(std::max(0.0, learned) * options.run.updates_per_decision) -

@@ -36,9 +36,9 @@ TrainOptions load_run_options(const std::filesystem::path& run);
 ///
 /// Writes curve.csv (`# stride curve 1`: a row each evaluation; it depends on the configuration and
 /// its seed alone, not on threads, speed or interruptions), timing.csv (`# stride timing 1`: wall
-/// clock of the same rows), agent.safetensors and best.safetensors (policy.h). `messages` (or
-/// null) gets the progress. A disk that is full is reported, and writing is tried again later; if
-/// it still is at the end, the summary says so, and the run continues from the checkpoint before.
+/// clock of the same rows), agent.safetensors and best.safetensors (policy.h). `messages` (or null)
+/// receives the progress. A full disk is reported and writing is tried again later; if it is still
+/// full at the end, the summary says so, and the run continues from the previous checkpoint.
 /// All `ranks` make the call together; the summary is whole in the first.
 TrainSummary train(const std::filesystem::path& run, const EnvironmentFactory& make_environment,
                    const std::atomic<bool>& stop, std::FILE* messages,

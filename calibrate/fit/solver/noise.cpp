@@ -42,7 +42,7 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
   fit.rms_px = std::sqrt(sum / std::max(count, 1.0));
   fit.outlier_fraction = 1 - count / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 
-  // Residuals of one part in neighbouring frames: how many say the same.
+  // Correlation of the residuals of a part in neighbouring frames.
   std::array<std::vector<Eigen::Vector2d>, kBodyPartCount> series;
   for (auto& each : series)
     each.assign(fit.pelvis_px.size(), Eigen::Vector2d::Constant(std::nan("")));
@@ -64,8 +64,8 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
     if (lag > 0 && mean < 0.1 * variance) break;
     if (lag > 0) alike += 2 * mean / variance;
   }
-  // A tracker that smooths hides the noise of the marks from which it started: the part that does
-  // not show is that of eight marks of each part a stride, however many frames repeat them.
+  // A smoothing tracker hides the noise of its clicks. The hidden part is that of eight clicks of
+  // each part a stride, however many frames are interpolated between them.
   const double strides = problem.observations.duration_s / fit.runner.cadence[cadence::period_s];
   const double frames = problem.observations.count[index(BodyPart::ankle_r)];
   const double copies = std::max(1.0, frames / (8 * std::max(strides, 1.0)));

@@ -4,8 +4,8 @@
 
 namespace stride::fit {
 
-/// Residuals, outliers, the robust standard deviation of a mark, and how much frames repeat one
-/// another.
+/// Updates residuals, outliers, the robust standard deviation of a point, and the correlation of
+/// frames.
 void estimate_noise(const FitProblem& problem, StrideFit& fit);
 
 }  // namespace stride::fit

@@ -4,10 +4,10 @@
 
 namespace stride::fit {
 
-/// PointResidual with its derivatives, for Ceres. Of the 74 parameters only 24 numbers matter
-/// between (camera, body, hips, four angles, phase, pelvis): those are differentiated
-/// automatically, and the series of the angles, linear in their coefficients, by the chain rule.
-/// Four times faster than AutoDiffCostFunction on all 74.
+/// PointResidual with its derivatives, for Ceres. The residual depends on the 74 parameters through
+/// 24 numbers (camera, body, hips, four angles, phase, pelvis). Those are differentiated
+/// automatically, and the angles' series, which are linear in their coefficients, by the chain
+/// rule. Four times faster than AutoDiffCostFunction on all 74.
 class PointCost final : public PointResidual::DependsOn::Sized {
  public:
   explicit PointCost(PointResidual residual) : residual_(std::move(residual)) {}

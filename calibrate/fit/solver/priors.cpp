@@ -39,8 +39,8 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   const double period = r.cadence[cadence::period_s],
                span = std::max(problem.observations.duration_s, period);
   add_prior(ceres, r.cadence, {Prior{period, wide}, Prior{0, 0.03 / (period * span)}});
-  // The trunk leans with the pelvis. The marked pelvis is the midpoint of the hips within 1 cm,
-  // unless it is plainly somewhere else: Cauchy's loss lets the marks say so.
+  // The trunk leans with the pelvis. The labelled pelvis is the midpoint of the hips within 1 cm;
+  // Cauchy's loss allows for larger offsets.
   const bool numeric = options.numeric_derivatives;
   add_residual(ceres, numeric, r, HipsResidual{1 * cm}, new ceres::CauchyLoss(1.5));
   add_prior(ceres, r.body,
@@ -56,8 +56,8 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   add_prior(ceres, r.tilt,
             {Prior{-4 * kDegree, 4 * kDegree}, Prior{0, stride}, Prior{0, stride}, Prior{0, step},
              Prior{0, step}});
-  // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1. It
-  // tells where every stride was clicked at the same few phases.
+  // Measured and animated runners: to 36° at the first harmonic, 29° at the second, 8, 3, 1, 1.
+  // This prior matters where every stride was clicked at the same few phases.
   for (auto* curve : {&r.hip, &r.knee, &r.ankle}) {
     Prior priors[kSizeOf<&Runner::hip>];
     priors[0] = {0, 180 * kDegree};

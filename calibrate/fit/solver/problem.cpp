@@ -30,7 +30,7 @@ void add_joint_limits(const FitProblem& problem, StrideFit& fit, ceres::Problem&
 }
 
 void add_marks(const FitProblem& problem, StrideFit& fit, Loss loss, ceres::Problem& ceres) {
-  // Marks that repeat one another count as fewer; the loss still judges each by its own noise.
+  // Correlated points have less weight, but the loss scales each by its own noise.
   const double inflation = std::sqrt(fit.correlation), sigma = fit.sigma_px * inflation;
   auto robust = [&]() -> ceres::LossFunction* {
     if (loss == Loss::cauchy) return new ceres::CauchyLoss(kCauchy / inflation);
@@ -55,7 +55,8 @@ void add_marks(const FitProblem& problem, StrideFit& fit, Loss loss, ceres::Prob
 void add_stance(const FitProblem& problem, StrideFit& fit, double* ground_m,
                 ceres::Problem& ceres) {
   const auto n = static_cast<double>(problem.stance.phases.size());
-  // A toe box bends and a heel rises: a centimetre (2.5 for an ankle), as if seen at three phases.
+  // Shoes bend and heels rise: a centimetre (2.5 for an ankle), weighted as if seen at three
+  // phases.
   const double sd = (fit.toes_seen ? 0.010 : 0.025) * std::sqrt(std::max(n / 3, 1.0));
   for (const int side : {1, -1})
     for (const double own : problem.stance.phases) {
@@ -100,7 +101,7 @@ void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_
   for (const int length : {body::thigh, body::shank, body::foot, body::trunk})
     ceres.SetParameterLowerBound(body, length, 0.01 * problem.options.leg_m.mean);
   ceres.SetParameterLowerBound(fit.runner.cadence.data(), cadence::period_s, 0.1);
-  // No step goes where its exponential overflows.
+  // Bounds keep exponentials from overflowing.
   double* camera = fit.runner.camera.data();
   const double log_scale = camera[camera::log_px_per_m];
   ceres.SetParameterLowerBound(camera, camera::log_px_per_m, log_scale - 3);

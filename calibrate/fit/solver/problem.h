@@ -8,13 +8,13 @@
 
 namespace stride::fit {
 
-/// Phases at which the foot of a leg stands, by its own cycle.
+/// Stance phases of a foot, in its own cycle.
 struct StanceCue {
   BodyPart part_r = BodyPart::toe_r;  // what stands; of the left leg its mirror image
   std::vector<double> phases;         // empty: not known
 };
 
-/// What the fit is made of, besides its present state.
+/// The constant inputs of a fit.
 struct FitProblem {
   const Marks& observations;
   const SagittalModel& model;
@@ -23,7 +23,7 @@ struct FitProblem {
   StanceCue stance;
 };
 
-/// Cauchy's loss finds the way from afar, Tukey's gives gross outliers no say at all.
+/// Cauchy's loss converges from afar; Tukey's ignores gross outliers.
 enum class Loss { cauchy, tukey };
 inline constexpr double kTukey = 4.685, kCauchy = 2.385;  // 95 % efficient under normal noise
 
@@ -36,7 +36,7 @@ double first_ground_m(const Runner& runner);
 void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_m,
            ceres::Problem& ceres);
 
-/// What is known of any runner before the clip is seen. Wide: they matter where marks are silent.
+/// Weak priors on any runner, which matter only where the points say nothing.
 void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres);
 
 }  // namespace stride::fit

@@ -7,8 +7,8 @@
 
 namespace stride::gaussian_process {
 
-/// The kernels under which the clicks are most likely, by their marginal likelihood. Observation
-/// variances are ignored: the noise of a click is what is found.
+/// Fits the kernels to the clicks by maximum marginal likelihood. The variances of the observations
+/// are ignored: the noise of a click is a hyperparameter.
 GaitPrior fit_gait_prior(const Observations& clicks, const PeriodBounds& bounds = {});
 
 /// The same, and after it a second one of another period if the clicks hardly tell the two apart:

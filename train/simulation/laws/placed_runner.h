@@ -24,7 +24,7 @@ struct PlacedRunner {
             f.origin_m[2] + location_m[2]};
   }
 
-  /// Velocity of the body's material that is at a point of the ground's axes.
+  /// Velocity of the material point of a body at a position in axes of the ground.
   simulation::PlanarVector velocity(int body, const osim::Vec3& point_m) const {
     if (body < 0) return {};
     const BodyFrame& f = frames[body];

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTrack_s = 0.01;         // longest time whose activations are integrated ahead
 constexpr double kImplicitDownTo = 3e-4;  // accuracy
-// What errors of speeds (rad/s, m/s), coordinates (rad, m) and fibres are measured against.
+// Scales of the errors of speeds (rad/s, m/s), coordinates (rad, m) and fibres (m).
 // An ankle turns a foot of 1.5 kg, whose speed matters little to the rest, and decays.
 constexpr double kSpeed = 2, kAnkleSpeed = 10, kCoordinate = 0.03, kFiber_m = 0.003;
 constexpr V4 kAnklesAndBase{kAnkleSpeed, kAnkleSpeed, kSpeed, kSpeed};  // lanes of State::kU + 1
