@@ -29,7 +29,7 @@ gaussian_process::Observations observations_of(const std::vector<Measurement>& m
 std::vector<Measurement> measurements_of(const Trajectory& marks);
 
 /// Gives marks the variance that the fit found, larger where one is less certain. They come first
-/// among the readings, in the order of readings_of().
+/// among the measurements, in the order of measurements_of().
 void weigh_marks(std::vector<Measurement>& measurements, const Trajectory& marks,
                  const gaussian_process::GaitPrior& prior);
 
