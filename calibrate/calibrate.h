@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibrate/aperiodic/retarget.h"
 #include "calibrate/fit/fit.h"
 #include "calibrate/gait/gait.h"
 #include "calibrate/gait/verdict.h"
@@ -8,13 +9,25 @@
 
 namespace stride {
 
+/// The fit of a movement that does not repeat.
+struct AperiodicCalibration {
+  aperiodic::PassageFit fit;
+  aperiodic::GroundPath path;
+  aperiodic::Flight flight;
+  aperiodic::Scale scale;
+};
+
 /// The result of a calibration.
 struct Calibration {
   gait::Verdict verdict;
   fit::Marks observations;
   fit::StrideFit fit;  // ok is false if the clip was refused before or by the fit
   gait::Gait gait;
+  std::optional<AperiodicCalibration> aperiodic;  // instead of `fit` and `gait`
   CalibratedTrajectory run;  // on the model's proportions; without samples if there is no fit
+
+  /// Whether there is a run, refused or not.
+  bool ok() const { return !run.samples.empty(); }
 };
 
 /// Converts a trajectory in pixels to a run in metres on the model. A clip that cannot be explained

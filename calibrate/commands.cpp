@@ -14,6 +14,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
+#include "extract/skeleton/movement.h"
 #include "extract/video/overlay.h"
 
 namespace stride {
@@ -25,6 +26,7 @@ struct CalibrateCommand {
   fs::path trajectory, out, fitted, video, overlay, model = osim::default_model_file();
   fit::RunnerSize size;
   std::optional<Facing> direction;
+  std::string movement;
   bool force = false, no_picture = false, mot = false;
 };
 
@@ -76,6 +78,8 @@ void run(const CalibrateCommand& command) {
   Trajectory trajectory = load_trajectory(command.trajectory);
   check_files(command, trajectory, files);
   if (command.direction) trajectory.direction = command.direction;
+  if (!command.movement.empty())
+    trajectory.movement = movement(command.movement, "--movement").name;
   const SagittalModel model = sagittal_model(osim::load_osim(command.model));
   const Calibration result = calibrate(trajectory, model, fit::fit_options(command.size));
 
@@ -84,14 +88,17 @@ void run(const CalibrateCommand& command) {
   fmt::print(stderr, "{}", report);
   if (result.fit.ok && !command.no_picture)
     report::draw_report(trajectory, model, result, video_of(command, trajectory), files.picture);
-  if (result.fit.ok && !command.overlay.empty()) {
+  require(command.fitted.empty() || !result.aperiodic,
+          "--fitted {}: of a movement that repeats only; a {} does not", command.fitted.string(),
+          trajectory.movement);
+  if (result.ok() && !command.overlay.empty()) {
     const fs::path video = video_of(command, trajectory);
     require(!video.empty(),
             "--overlay {}: the video {} does not lie beside the trajectory; give it by --video",
             command.overlay.string(), trajectory.video);
     video::write_overlay(video, fitted_points(trajectory, model, result), command.overlay);
   }
-  require(!result.verdict.refused || (command.force && result.fit.ok),
+  require(!result.verdict.refused || (command.force && result.ok()),
           "{}: {}\n(--force writes the fit nevertheless, where there is one)",
           command.trajectory.string(), result.verdict.text());
   save(result.run, files.run);
@@ -122,6 +129,9 @@ void add_calibrate_commands(CLI::App& app) {
   calibrate->add_option("--scale", command->size.metres_per_pixel,
                         "metres per pixel in the middle of the clip");
   add_direction_option(*calibrate, command->direction);
+  calibrate->add_option(
+      "--movement", command->movement,
+      "run, walk, jump or another of movements.toml (default: as the trajectory says)");
   calibrate->add_option("--fitted", command->fitted,
                         "also write the fitted runner in the image, px: a trajectory for stride "
                         "track --prior");

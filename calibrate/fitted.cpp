@@ -30,6 +30,16 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
                          const Calibration& c) {
   const Directions directions(model);
   Trajectory fitted = trajectory;
+  if (c.aperiodic) {
+    for (std::size_t i = 0; i < fitted.frames.size(); ++i)
+      for (const BodyPart part : kBodyParts)
+        fitted.frames[i][part] = {
+            fit::image_px(trajectory, c.observations.to_left,
+                          aperiodic::predicted_px(c.aperiodic->fit.passage, directions, part,
+                                                  static_cast<int>(i), c.observations.u_s[i])),
+            Source::predicted, 1};
+    return fitted;
+  }
   for (std::size_t i = 0; i < fitted.frames.size(); ++i)
     for (const BodyPart part : kBodyParts) {
       const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;

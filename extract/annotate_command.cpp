@@ -21,6 +21,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/pose/pose_points.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -30,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Request {
   fs::path video, keypoints, script, import_from;
+  std::string movement;  // empty: as the clicks say, or run
   std::vector<int> window{1280, 860};
   annotation::AnnotationOptions session;
   imports::ImportOptions import;
@@ -250,6 +252,13 @@ void run(Request request) {
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
+  if (const std::string& said = request.movement; !said.empty()) {
+    annotation::ClipSettings settings = annotation::settings_of(journal.document().keypoints());
+    if (settings.movement != said) {
+      settings.movement = movement(said, "--movement").name;
+      journal.apply({"a " + said, {}, settings});
+    }
+  }
   const bool corrects = (request.pose.wanted && !request.pose.is_users()) ||
                         journal.document().keypoints().corrects_network;
   require(!corrects || request.import_from.empty(),
@@ -294,6 +303,8 @@ void add_annotate_command(CLI::App& app) {
                      "without a window: events from a file, one JSON object a line");
   command.add_option("--window", request->window, "its size: WIDTH HEIGHT (default: 1280 860)")
       ->expected(2);
+  command.add_option("--movement", request->movement,
+                     "run, walk, jump or another of movements.toml (default: as the clicks say)");
   command.add_flag("--hips", request->session.hips, "ask for the hips too");
   command.add_flag("--head", request->session.head, "ask for the head too");
   command.add_option("--import", request->import_from,

@@ -17,6 +17,7 @@
 #include "extract/io/option_range.h"
 #include "extract/io/outputs.h"
 #include "extract/pose/pose_points.h"
+#include "extract/skeleton/movement.h"
 #include "extract/tracking/time_check.h"
 #include "extract/tracking/track_score.h"
 #include "extract/video/overlay.h"
@@ -30,6 +31,7 @@ constexpr std::size_t kFewestFrames = 8;
 
 struct Request {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
+  std::string movement;               // empty: as the keypoints say
   std::optional<double> slow_motion;  // else as the keypoints say
   bool repair_legs = true;
   tracking::TrackOptions track;
@@ -116,11 +118,12 @@ void report(const tracking::Tracked& tracked) {
              "stride {}, noise of the marks {:.1f} px, flow inliers on {:.0f} % of the unmarked "
              "points\n",
              tracked.summary.labelled_frames, t.frames.front().frame, t.frames.back().frame,
-             tracked.summary.labelled_frames < static_cast<int>(kFewestFrames)
-                 ? "period not known"
-                 : fmt::format("period {:.3f} s", legs.period_s),
+             tracked.summary.labelled_frames < static_cast<int>(kFewestFrames) ? "period not known"
+             : !legs.periodic ? "none, as a movement that does not repeat has"
+                              : fmt::format("period {:.3f} s", legs.period_s),
              legs.noise_px, 100 * tracked.summary.inlier);
-  if (const std::string doubt = tracking::doubt_of_period(legs.period_s); !doubt.empty())
+  if (const std::string doubt = tracking::doubt_of_period(legs.period_s);
+      legs.periodic && !doubt.empty())
     fmt::print(stderr, "warning: {}\n", doubt);
   std::vector<double> residuals;
   for (const TrajectoryFrame& frame : t.frames)
@@ -163,8 +166,12 @@ void run(Request request) {
     fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
     return;
   }
-  const tracking::LabelledClip labelled =
+  if (!request.movement.empty() && !movement(request.movement, "--movement").repeats)
+    request.repair_legs = false;  // which looks for legs in turn
+  tracking::LabelledClip labelled =
       is_detected(request) ? detected(request) : clicked_or_seen(request);
+  if (!request.movement.empty())
+    labelled.marks.movement = movement(request.movement, "--movement").name;
   const std::size_t frames = labelled.marks.frames.size();
   require(frames != 1, "one frame is marked: that tells no motion; mark {} or more", kFewestFrames);
   if (frames < kFewestFrames)
@@ -229,6 +236,9 @@ void add_track_command(CLI::App& app) {
       .add_option("--slow-motion", request->slow_motion,
                   "seconds of video a second of the runner (default: as the clicks say)")
       ->check(in_range(0.05, 100));
+  command.add_option(
+      "--movement", request->movement,
+      "run, walk, jump or another of movements.toml (default: as the clicks say, or run)");
   command.add_flag("--keep-marks", request->track.keep_marks,
                    "go exactly through every click instead of averaging their noise out");
   command.add_flag("!--no-flow", request->track.flow, "do not look at the picture between clicks");

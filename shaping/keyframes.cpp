@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "extract/io/error.h"
 #include "extract/skeleton/fourier_series.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace {
@@ -16,7 +18,10 @@ Pose to_pose(const Eigen::RowVectorXd& row) {
   return pose;
 }
 
-double distance(double a, double b) { return std::abs(a - b - std::round(a - b)); }
+/// Of phases, by the shorter way round where they repeat.
+double distance(double a, double b, bool repeats) {
+  return std::abs(a - b - (repeats ? std::round(a - b) : 0));
+}
 
 Pose deviations(const CalibratedSample& sample, std::string_view foot) {
   CalibratedSample sd = sample;
@@ -35,6 +40,50 @@ void require_whole_stride(const CalibratedTrajectory& run, const std::string& or
           100 * gap);
 }
 
+/// A motion by phase.
+using Motion = std::function<Pose(double phase)>;
+
+/// The mean stride.
+Motion stride_of(const CalibratedTrajectory& run, const std::string& foot) {
+  const auto n = static_cast<Eigen::Index>(run.samples.size());
+  const int harmonics = static_cast<int>(std::clamp<Eigen::Index>(n / 4, 1, 8));
+  Eigen::MatrixXd rows(n, 2 * harmonics + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(kPoseNumbers)> values(n, kPoseNumbers);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const CalibratedSample& sample = run.samples[static_cast<std::size_t>(i)];
+    rows.row(i) = fourier_basis(sample.phase, harmonics).transpose();
+    values.row(i) = pose_of(sample, foot).row();
+  }
+  const Eigen::MatrixXd curves = rows.completeOrthogonalDecomposition().solve(values);
+  return [curves, harmonics](double phase) {
+    return to_pose(fourier_basis(phase, harmonics).transpose() * curves);
+  };
+}
+
+/// What does not repeat, linear between its samples.
+Motion passage_of(const CalibratedTrajectory& run, const std::string& foot) {
+  return [&samples = run.samples, foot](double phase) {
+    const auto after = std::ranges::lower_bound(samples, phase, {}, &CalibratedSample::phase);
+    if (after == samples.begin()) return pose_of(samples.front(), foot);
+    if (after == samples.end()) return pose_of(samples.back(), foot);
+    const CalibratedSample& before = *std::prev(after);
+    const double share = (phase - before.phase) / (after->phase - before.phase);
+    return to_pose((1 - share) * pose_of(before, foot).row() + share * pose_of(*after, foot).row());
+  };
+}
+
+void require_beginning_and_end(const CalibratedTrajectory& run, const std::string& origin) {
+  constexpr double kEnds = 0.02;
+  const double first = run.samples.front().phase, last = run.samples.back().phase;
+  require(first < kEnds && last > 1 - kEnds,
+          "{}: phases {:.2f} to {:.2f}: a {} is needed from its beginning, 0, to its end, 1",
+          origin, first, last, run.movement);
+  for (std::size_t i = 1; i < run.samples.size(); ++i)
+    require(run.samples[i].phase > run.samples[i - 1].phase,
+            "{}: row {}: phase = {}: must grow from row to row in a {}", origin, i + 1,
+            run.samples[i].phase, run.movement);
+}
+
 }  // namespace
 
 Pose pose_of(const CalibratedSample& sample, std::string_view foot) {
@@ -50,19 +99,16 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   require(options.count >= 4 && options.count % 2 == 0,
           "keyframes = {}: must be even and at least 4, as a stride has two half steps",
           options.count);
-  require_whole_stride(run, origin);
-  const auto n = static_cast<Eigen::Index>(run.samples.size());
-  const int harmonics = static_cast<int>(std::clamp<Eigen::Index>(n / 4, 1, 8));
-  Eigen::MatrixXd rows(n, 2 * harmonics + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(kPoseNumbers)> values(n, kPoseNumbers);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const CalibratedSample& sample = run.samples[static_cast<std::size_t>(i)];
-    rows.row(i) = fourier_basis(sample.phase, harmonics).transpose();
-    values.row(i) = pose_of(sample, options.foot).row();
-  }
-  const Eigen::MatrixXd curves = rows.completeOrthogonalDecomposition().solve(values);
-
   Potential potential;
+  set_movement(potential, run.movement, origin + ": movement");
+  const Movement& known = movement(run.movement);
+  if (known.repeats)
+    require_whole_stride(run, origin);
+  else
+    require_beginning_and_end(run, origin);
+  const Motion target =
+      known.repeats ? stride_of(run, options.foot) : passage_of(run, options.foot);
+  const int count = known.repeats ? options.count : 2 * options.count;
   potential.source = run.source;
   potential.source_sha256 = run.source_sha256;
   potential.model = run.model;
@@ -77,16 +123,15 @@ Potential make_potential(const CalibratedTrajectory& run, const KeyframeOptions&
   potential.index = options.index;
   potential.epsilon_m = options.epsilon_m;
   potential.weight = options.weight;
-  for (int k = 0; k < options.count; ++k) {
-    const double phase = static_cast<double>(k) / options.count;
-    const auto target = [&](double at) {
-      return to_pose(fourier_basis(at, harmonics).transpose() * curves);
-    };
+  for (int k = 0; k < count; ++k) {
+    const double phase = static_cast<double>(k) / (known.repeats ? count : count - 1);
     Pose mean = target(phase);
-    if (options.symmetric)
-      mean = to_pose(0.5 * (mean.row() + target(phase + 0.5).mirrored().row()));
-    const auto nearest = std::ranges::min_element(
-        run.samples, {}, [&](const auto& sample) { return distance(sample.phase, phase); });
+    if (options.symmetric && known.legs != Legs::free)
+      mean =
+          to_pose(0.5 * (mean.row() + target(phase + potential.mirrored_after).mirrored().row()));
+    const auto nearest = std::ranges::min_element(run.samples, {}, [&](const auto& sample) {
+      return distance(sample.phase, phase, known.repeats);
+    });
     potential.keyframes.push_back(
         {.phase = phase, .pose = mean, .sd = deviations(*nearest, options.foot)});
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "extract/io/error.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace {
@@ -60,6 +61,27 @@ std::vector<double> periodic_spline_weights(std::size_t n, double position) {
   return weights;
 }
 
+/// Values at equally spaced knots, as the weights of their cubic spline at `position` (in steps)
+/// whose slope is 0 at both ends. The slopes s of the knots between solve
+/// s_{i−1} + 4 s_i + s_{i+1} = 3 (y_{i+1} − y_{i−1}); one value after another is y.
+std::vector<double> resting_spline_weights(std::size_t n, double position) {
+  position = std::clamp(position, 0.0, static_cast<double>(n - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(position), n - 2);
+  const double u = position - static_cast<double>(i), v = 1 - u;
+  std::vector<double> weights(n, 0.0), ratio(n, 0.0), slope(n);
+  for (std::size_t k = 1; k + 1 < n; ++k) ratio[k] = 1 / (4 - ratio[k - 1]);  // Thomas
+  weights[i] = v * v * (1 + 2 * u);
+  weights[i + 1] = u * u * (1 + 2 * v);
+  for (std::size_t y = 0; y < n; ++y) {
+    slope.assign(n, 0.0);
+    for (std::size_t k = 1; k + 1 < n; ++k)
+      slope[k] = ratio[k] * (3.0 * (k + 1 == y) - 3.0 * (k == y + 1) - slope[k - 1]);
+    for (std::size_t k = n - 2; k > 0; --k) slope[k] -= ratio[k] * slope[k + 1];
+    weights[y] += u * v * v * slope[i] - u * u * v * slope[i + 1];
+  }
+  return weights;
+}
+
 }  // namespace
 
 double Potential::operator()(const Pose& pose, double phase) const {
@@ -70,12 +92,17 @@ double Potential::operator()(const Pose& pose, double phase) const {
   return nearest;
 }
 
-double Potential::phase_at(double time_s) const { return modulo(time_s / period_s, 1.0); }
+double Potential::phase_at(double time_s) const {
+  const double phase = time_s / period_s;
+  return repeats ? modulo(phase, 1.0) : std::clamp(phase, 0.0, 1.0);
+}
 
 Pose Potential::target(double phase) const {
   const std::size_t n = keyframes.size();
   const std::vector<double> weights =
-      periodic_spline_weights(n, (phase - keyframes.front().phase) * static_cast<double>(n));
+      repeats
+          ? periodic_spline_weights(n, (phase - keyframes.front().phase) * static_cast<double>(n))
+          : resting_spline_weights(n, phase * static_cast<double>(n - 1));
   Pose pose;
   for (std::size_t k = 0; k < n; ++k) {
     const Pose& key = keyframes[k].pose;
@@ -93,6 +120,13 @@ double Potential::contrast() const {
       anywhere += closeness(*this, other.pose, demonstrated.pose) / (n * n);
   }
   return in_step - anywhere;
+}
+
+void set_movement(Potential& potential, std::string_view name, std::string_view what) {
+  const Movement& known = movement(name, what);
+  potential.movement = known.name;
+  potential.repeats = known.repeats;
+  potential.mirrored_after = known.legs == Legs::in_turn ? 0.5 : 0;
 }
 
 InverseDistance inverse_distance(std::string_view name) {

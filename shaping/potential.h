@@ -20,7 +20,7 @@ inline constexpr Names<PotentialIndex> kPotentialIndices({{PotentialIndex::time,
 inline constexpr int kKeyframesPerStride = 8;  // the paper's four a half step
 
 struct Keyframe {
-  double phase = 0;  // [0, 1)
+  double phase = 0;  // [0, 1), of a movement that does not repeat [0, 1]
   Pose pose;
   Pose sd;  // one standard deviation of each coordinate; NaN where it is not known
 };
@@ -28,12 +28,15 @@ struct Keyframe {
 /// NAME.potential.json, format "stride-potential" version 1.
 struct Potential {
   std::string source, source_sha256, model;
-  std::string foot = "ankle";            // "ankle" or "toe": which part is the foot of the paper
-  double period_s = 0, period_sd_s = 0;  // of the stride
+  std::string movement = "run";  // a name of movements.toml
+  bool repeats = true;           // that movement; false: before 0 and after 1 it stands still
+  double mirrored_after = 0.5;   // of it: the mirrored pose belongs to so much later a phase
+  std::string foot = "ankle";    // "ankle" or "toe": which part is the foot of the paper
+  double period_s = 0, period_sd_s = 0;  // of the stride, or of all that does not repeat
   double speed_m_s = 0;                  // of the video's runner; NaN: not known
   double rms_px = 0, rms_m = 0;          // quality of the fit behind it; NaN: not known
   std::string verdict = "ok";
-  std::vector<Keyframe> keyframes;  // phase k/n; kKeyframesPerStride unless told otherwise
+  std::vector<Keyframe> keyframes;  // n of phase k/n, of what does not repeat k/(n − 1)
 
   InverseDistance function = InverseDistance::pf3;
   PotentialIndex index = PotentialIndex::time;
@@ -41,11 +44,11 @@ struct Potential {
   double weight = 1;
 
   /// Φ(s, phase), ≥ 0 or of pf4 ≤ 0: weight · the sum over pelvis height, two knees, two feet.
-  /// Between keyframes the target moves on a periodic cubic spline. `phase` (any real number,
-  /// modulo 1) is ignored by the index `nearest`.
+  /// Between keyframes the target moves on a cubic spline, periodic or at rest at both ends.
+  /// `phase` (any real number, modulo 1 or held at the ends) is ignored by the index `nearest`.
   double operator()(const Pose& pose, double phase) const;
 
-  /// Phase after `time_s` from phase 0, at the video's cadence.
+  /// Phase after `time_s` from phase 0, at the video's cadence; of what does not repeat at most 1.
   double phase_at(double time_s) const;
 
   /// By how much the demonstrated motion in its own time is higher than the same motion at any
@@ -55,6 +58,9 @@ struct Potential {
   /// The pose of the runner in the video at that phase.
   Pose target(double phase) const;
 };
+
+/// Sets movement, repeats and mirrored_after. Throws Error, beginning with `what`.
+void set_movement(Potential& potential, std::string_view movement, std::string_view what);
 
 /// The function or index of that name. Throws Error with the list of names.
 InverseDistance inverse_distance(std::string_view name);

@@ -6,6 +6,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
+#include "extract/skeleton/movement.h"
 #include "shaping/potential.h"
 
 namespace stride {
@@ -120,10 +121,11 @@ void check(const Potential& potential, const std::string& origin) {
   require(n >= 2, "{}: {} keyframes: at least two are needed", origin, n);
   for (std::size_t k = 0; k < n; ++k) {
     const Keyframe& keyframe = potential.keyframes[k];
-    const double phase = static_cast<double>(k) / static_cast<double>(n);
+    const double phase =
+        static_cast<double>(k) / static_cast<double>(potential.repeats ? n : n - 1);
     require(std::abs(keyframe.phase - phase) < 1e-9,
-            "{}: keyframes[{}].phase = {}: must be {}: keyframes are equally spaced from 0", origin,
-            k, keyframe.phase, phase);
+            "{}: keyframes[{}].phase = {}: must be {}: keyframes are equally spaced from 0{}",
+            origin, k, keyframe.phase, phase, potential.repeats ? "" : " to 1");
     require(is_finite(keyframe.pose), "{}: keyframes[{}] has a coordinate that is not finite",
             origin, k);
   }
@@ -145,6 +147,8 @@ Potential load_potential(const std::filesystem::path& path) {
   Potential potential;
   potential.source = root["source"]["file"].text();
   potential.source_sha256 = root["source"]["sha256"].text();
+  if (json.contains("movement"))
+    set_movement(potential, root["movement"].text(), file + ": movement");
   potential.model = root["model"].text();
   potential.foot = root["foot"].text();
   potential.period_s = root["stride"]["period_s"].number();
@@ -178,7 +182,7 @@ void save(const Potential& potential, const std::filesystem::path& file) {
     json["sd"] = to_json(keyframe.sd);  // NaN becomes null
     keyframes.push_back(std::move(json));
   }
-  const Json json{
+  Json json{
       {"format", kFormat},
       {"version", kVersion},
       {"source", {{"file", potential.source}, {"sha256", potential.source_sha256}}},
@@ -195,6 +199,7 @@ void save(const Potential& potential, const std::filesystem::path& file) {
       {"epsilon_m", potential.epsilon_m},
       {"weight", potential.weight},
       {"keyframes", keyframes}};
+  if (potential.movement != kDefaultMovement) json["movement"] = potential.movement;
   write_file_atomically(file, json.dump(1) + "\n");
 }
 

@@ -93,6 +93,10 @@ expect("videos: is a folder" track videos --keypoints videos/human.keypoints.jso
 expect("is an address (URL)" track https://example.invalid/run.mp4 --keypoints videos/human.keypoints.json)
 expect("leg = 0.1: must be in" convert videos/human.mp4 -o x --leg 0.1)
 
+expect("--movement = 'crawl': must be one of run" convert videos/human.mp4 -o x --movement crawl)
+expect("a run is --movement run" calibrate ${human}.trajectory.csv --movement jump -o x/human.calibrated.csv --no-picture)
+expect("has a beginning and an end" train --movement jump --potential ${human}.potential.json --out x)
+
 # An output is never an input, nor a file of another kind.
 file(SHA256 ${FOLDER}/videos/human.mp4 video_before)
 file(SHA256 ${FOLDER}/videos/human.keypoints.json clicks_before)

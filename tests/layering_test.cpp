@@ -25,15 +25,15 @@ const std::vector<std::string> kRooms{
     "extract/annotation/session", "extract/commands",
     //
     "calibrate/osim", "calibrate/runner", "calibrate/fit/solver", "calibrate/fit", "calibrate/gait",
-    "calibrate", "calibrate/report", "calibrate/commands",
+    "calibrate/aperiodic", "calibrate", "calibrate/report", "calibrate/commands",
     //
     "shaping", "shaping/pipeline", "shaping/commands",
     //
     "train/simulation/engine", "train/simulation/laws", "train/simulation/integration",
     "train/simulation/simd", "train/simulation/simbody", "train/simulation/planar",
-    "train/simulation/competition", "train/simulation", "train/environment", "train/network",
-    "train/ddpg", "train/training", "train/ppo", "train/rollout", "train/film", "train/evaluation",
-    "train/experiments", "train/page", "train/python", "train/commands"};
+    "train/simulation/competition", "train/simulation", "train/task", "train/environment",
+    "train/network", "train/ddpg", "train/training", "train/ppo", "train/rollout", "train/film",
+    "train/evaluation", "train/experiments", "train/page", "train/python", "train/commands"};
 
 constexpr std::size_t kMostUnits = 12;  // of a room
 constexpr std::size_t kLargestKnot = 2;

@@ -167,9 +167,52 @@ Clip cartoon_clip() {
   return clip;
 }
 
+/// A jump after standing, and standing after it.
+Clip jump_clip() {
+  Clip clip;
+  clip.name = "jump";
+  clip.description = "a man jumps from standing, the camera stands";
+  clip.seed = 81;
+  clip.frames = 69;
+  clip.proportions.thigh = 0.4215;
+  clip.proportions.shank = 0.4099;
+  clip.jump = JumpMotion(clip.proportions);
+  clip.stands_first_s = 0.2;
+  clip.camera = camera(140, 9);
+  clip.camera.x_m = 0.55;
+  clip.camera.center_v_px = 160;
+  clip.camera.roll_rad = 0.01;
+  clip.camera_follows = false;
+  return clip;
+}
+
+Clip jump_left_clip() {
+  Clip clip = jump_clip();
+  clip.name = "jump_left";
+  clip.description = "a woman jumps to the left, the camera follows late";
+  clip.character = "woman";
+  clip.scene = "street";
+  clip.seed = 91;
+  clip.to_left = true;
+  clip.proportions.trunk = 0.53;
+  clip.proportions.hip_half_width = 0.09;
+  clip.proportions.shoulder_half_width = 0.165;
+  clip.jump = JumpMotion(clip.proportions);
+  clip.camera = camera(128, 11);
+  clip.camera.center_v_px = 165;
+  clip.camera.roll_rad = -0.014;
+  clip.camera_follows = true;
+  return clip;
+}
+
+Grounding grounding_of(const Clip& clip) {
+  if (!clip.jump) return ground(clip.gait, clip.proportions);
+  return {.mean_height_m = 0, .speed_m_s = clip.jump->length_m() / clip.duration_s()};
+}
+
 }  // namespace
 
-Motion::Motion(const Clip& clip) : clip_(clip), grounding_(ground(clip.gait, clip.proportions)) {
+Motion::Motion(const Clip& clip) : clip_(clip), grounding_(grounding_of(clip)) {
   for (std::uint64_t joint = 0; joint < 6; ++joint) joints_.push_back(waves(joint));
   sway_x_ = waves(100);
   sway_y_ = waves(101);
@@ -192,6 +235,7 @@ double Motion::slow(const std::vector<Wave>& waves, double time_s) const {
 }
 
 Skeleton Motion::skeleton(double time_s) const {
+  if (clip_.jump) return clip_.jump->skeleton(time_s - clip_.stands_first_s);
   const double phase = clip_.first_phase + time_s / clip_.gait.period_s;
   Deviation deviation;
   for (int side : {0, 1}) {
@@ -228,9 +272,13 @@ std::vector<Clip> clips() {
           treadmill_clip(), left_clip(), small_clip()};
 }
 
+std::vector<Clip> jumps() { return {jump_clip(), jump_left_clip()}; }
+
 Clip clip(std::string_view name) {
   std::string names;
-  for (const Clip& clip : clips()) {
+  std::vector<Clip> all = clips();
+  for (const Clip& jump : jumps()) all.push_back(jump);
+  for (const Clip& clip : all) {
     if (clip.name == name) return clip;
     names += (names.empty() ? "" : ", ") + clip.name;
   }

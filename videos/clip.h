@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "videos/jump_motion.h"
 #include "videos/pinhole_camera.h"
 #include "videos/skeleton.h"
 
@@ -22,6 +24,8 @@ struct Clip {
   double slow_motion = 1;  // seconds of video per second of the runner
 
   GaitCurves gait;
+  std::optional<JumpMotion> jump;  // instead of that gait
+  double stands_first_s = 0;       // before the jump
   Proportions proportions;
   double first_phase = 0;
   double deviation_rad = 0;  // rms of every joint from the mean stride, slow and random
@@ -51,7 +55,7 @@ class Motion {
   explicit Motion(const Clip& clip);
 
   const Clip& clip() const { return clip_; }
-  double speed_m_s() const { return grounding_.speed_m_s; }
+  double speed_m_s() const { return grounding_.speed_m_s; }  // of a jump the mean
   Skeleton skeleton(double time_s) const;
   double belt_m(double time_s) const;  // how far the belt of the treadmill has run
   PinholeCamera camera(double time_s) const;
@@ -69,8 +73,9 @@ class Motion {
   std::vector<Wave> sway_x_, sway_y_;
 };
 
-std::vector<Clip> clips();
-/// Throws Error with the list of names.
+std::vector<Clip> clips();  // of gaits
+std::vector<Clip> jumps();
+/// One of either. Throws Error with the list of names.
 Clip clip(std::string_view name);
 
 }  // namespace stride::videos

@@ -62,20 +62,27 @@ int main(int argc, char** argv) try {
   app.add_flag("--one-place", filming.one_place, "by a camera that stands");
   CLI11_PARSE(app, argc, argv);
 
+  std::vector<Clip> all = clips();
+  for (const Clip& jump : jumps()) all.push_back(jump);
+
   if (list) {
-    for (const Clip& clip : clips())
+    for (const Clip& clip : all)
       std::cout << fmt::format("{:<12} {}×{} {:>4} Hz {:>4} frames  {}\n", clip.name, clip.width_px,
                                clip.height_px, clip.rate_hz, clip.frames, clip.description);
     return 0;
   }
   if (!sheet.empty()) {
-    write_sheet(clips(), folder, sheet);
+    if (!names.empty()) {
+      all.clear();
+      for (const std::string& name : names) all.push_back(stride::videos::clip(name));
+    }
+    write_sheet(all, folder, sheet);
     std::cout << sheet.string() << '\n';
     return 0;
   }
   std::filesystem::create_directories(folder);
   if (names.empty())
-    for (const Clip& clip : clips()) names.push_back(clip.name);
+    for (const Clip& clip : all) names.push_back(clip.name);
   stride::require(filming.name.empty() || names.size() == 1,
                   "--name {}: names one clip, and {} are to be rendered; name one", filming.name,
                   names.size());

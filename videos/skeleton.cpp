@@ -59,39 +59,55 @@ const Vector3d& Skeleton::operator[](BodyPart part) const {
 
 Skeleton pose(const GaitCurves& gait, const Proportions& p, double phase, double x_m,
               double pelvis_height_m, const Deviation& deviation) {
+  Posture posture;
+  posture.phase = phase - std::floor(phase);
+  posture.pelvis_tilt = kRad * gait.pelvis_tilt_deg(phase);
+  posture.trunk_lean = kRad * gait.trunk_lean_deg(phase);
+  posture.stretch = 1 - gait.squash * std::cos(4 * std::numbers::pi * (phase - kMidStance));
+  for (int side : {0, 1}) {
+    const double own = phase + 0.5 * side, sign = side == 0 ? 1 : -1;
+    posture.hip_flexion[side] = kRad * gait.hip_flexion_deg(own) + deviation.hip[side];
+    posture.knee_angle[side] = kRad * gait.knee_angle_deg(own) + deviation.knee[side];
+    posture.ankle_angle[side] = kRad * gait.ankle_angle_deg(own) + deviation.ankle[side];
+    posture.hip_offset[side] = {sign * gait.hip_swing_m * std::cos(2 * std::numbers::pi * phase),
+                                sign * gait.hip_drop_m * std::sin(2 * std::numbers::pi * phase)};
+    posture.upper_arm[side] = kRad * gait.shoulder_deg(own);
+    posture.elbow[side] = kRad * gait.elbow_deg(own);
+    posture.shoulder_back_m[side] = gait.shoulder_swing_m * std::cos(2 * std::numbers::pi * own);
+  }
+  return stand(posture, p, x_m, pelvis_height_m);
+}
+
+Skeleton stand(const Posture& posture, const Proportions& p, double x_m, double pelvis_height_m) {
   Skeleton s;
-  s.phase = phase - std::floor(phase);
+  s.phase = posture.phase;
   s.pelvis = {x_m, pelvis_height_m, 0};
-  s.pelvis_tilt = kRad * gait.pelvis_tilt_deg(phase);
-  s.trunk_lean = kRad * gait.trunk_lean_deg(phase);
+  s.pelvis_tilt = posture.pelvis_tilt;
+  s.trunk_lean = posture.trunk_lean;
+  s.hip_flexion = posture.hip_flexion;
+  s.knee_angle = posture.knee_angle;
+  s.ankle_angle = posture.ankle_angle;
   const Vector3d up(std::sin(s.trunk_lean), std::cos(s.trunk_lean), 0);
-  const double stretch = 1 - gait.squash * std::cos(4 * std::numbers::pi * (phase - kMidStance));
-  s.shoulders = s.pelvis + stretch * p.trunk * up;
+  s.shoulders = s.pelvis + posture.stretch * p.trunk * up;
   s.head_pitch = 0.3 * s.trunk_lean;
   s.head =
       s.shoulders + p.neck * Vector3d(std::sin(s.trunk_lean + 0.12), std::cos(s.trunk_lean), 0);
   for (int side : {0, 1}) {
-    const double own = phase + 0.5 * side, sign = side == 0 ? 1 : -1;
-    const double swing = std::cos(2 * std::numbers::pi * own);
-    s.hip_flexion[side] = kRad * gait.hip_flexion_deg(own) + deviation.hip[side];
-    s.knee_angle[side] = kRad * gait.knee_angle_deg(own) + deviation.knee[side];
-    s.ankle_angle[side] = kRad * gait.ankle_angle_deg(own) + deviation.ankle[side];
+    const double sign = side == 0 ? 1 : -1;
     s.thigh_angle[side] = s.pelvis_tilt + s.hip_flexion[side];
     s.shank_angle[side] = s.thigh_angle[side] + s.knee_angle[side];
     s.foot_angle[side] = s.shank_angle[side] + s.ankle_angle[side];
-    s.hip[side] =
-        s.pelvis + Vector3d(sign * gait.hip_swing_m * std::cos(2 * std::numbers::pi * phase),
-                            sign * gait.hip_drop_m * std::sin(2 * std::numbers::pi * phase),
-                            sign * p.hip_half_width);
+    s.hip[side] = s.pelvis + Vector3d(posture.hip_offset[side].x(), posture.hip_offset[side].y(),
+                                      sign * p.hip_half_width);
     s.knee[side] = s.hip[side] + hanging(s.thigh_angle[side], p.thigh);
     s.knee[side].z() = sign * 0.5 * (p.hip_half_width + p.ankle_half_width);
     s.ankle[side] = s.knee[side] + hanging(s.shank_angle[side], p.shank);
     s.ankle[side].z() = sign * p.ankle_half_width;
     s.toe[side] = s.ankle[side] + on_foot(s.foot_angle[side], p.toe_forward, -p.toe_down);
 
-    s.upper_arm_angle[side] = kRad * gait.shoulder_deg(own);
-    s.forearm_angle[side] = s.upper_arm_angle[side] + kRad * gait.elbow_deg(own);
-    s.shoulder[side] = s.shoulders - gait.shoulder_swing_m * swing * Vector3d(1, 0, 0) - 0.035 * up;
+    s.upper_arm_angle[side] = posture.upper_arm[side];
+    s.forearm_angle[side] = s.upper_arm_angle[side] + posture.elbow[side];
+    s.shoulder[side] = s.shoulders - posture.shoulder_back_m[side] * Vector3d(1, 0, 0) - 0.035 * up;
     s.shoulder[side].z() = sign * p.shoulder_half_width;
     s.elbow[side] = s.shoulder[side] + hanging(s.upper_arm_angle[side], p.upper_arm);
     s.wrist[side] = s.elbow[side] + hanging(s.forearm_angle[side], p.forearm);

@@ -34,6 +34,20 @@ struct Skeleton {
   const Eigen::Vector3d& operator[](BodyPart part) const;
 };
 
+/// The angles of a runner at one moment, rad, and how far the parts of the trunk are off.
+struct Posture {
+  double phase = 0;
+  double pelvis_tilt = 0, trunk_lean = 0, stretch = 1;  // of the trunk's length
+  std::array<double, 2> hip_flexion{}, knee_angle{}, ankle_angle{};
+  std::array<double, 2> upper_arm{}, elbow{};
+  std::array<Eigen::Vector2d, 2> hip_offset{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  std::array<double, 2> shoulder_back_m{};
+};
+
+/// A runner in a posture, hips at (x, height).
+Skeleton stand(const Posture& posture, const Proportions& proportions, double x_m,
+               double pelvis_height_m);
+
 /// Deviations from the mean stride, rad.
 struct Deviation {
   std::array<double, 2> hip{}, knee{}, ankle{};

@@ -11,6 +11,7 @@ namespace stride::videos {
 namespace {
 
 constexpr int kClicksPerStride = 8;
+constexpr double kUsualStride_s = 0.69;
 
 Facing facing(const Clip& clip) { return clip.to_left ? Facing::left : Facing::right; }
 
@@ -30,6 +31,7 @@ Trajectory truth_px(const Clip& clip) {
   trajectory.height_px = clip.height_px;
   trajectory.rate_hz = clip.rate_hz * clip.slow_motion;
   trajectory.direction = facing(clip);
+  if (clip.jump) trajectory.movement = "jump";
   for (int i = 0; i < clip.frames; ++i) {
     TrajectoryFrame& frame = trajectory.frames.emplace_back();
     frame.frame = i;
@@ -48,12 +50,17 @@ Table truth_m(const Clip& clip) {
   table.format = "truth";
   table.set_meta("unit", "m, rad");
   table.set_meta("video", clip.name + ".mp4");
-  table.set_meta("source", clip.gait.source);
+  table.set_meta("source", clip.jump ? clip.jump->source() : clip.gait.source);
   table.set_meta("direction", std::string(kFacings[facing(clip)]));
   const auto number = [&](const char* key, double value) {
     table.set_meta(key, fmt::format("{}", value));
   };
-  number("period_s", clip.gait.period_s);
+  number("period_s", clip.jump ? clip.jump->duration_s() : clip.gait.period_s);
+  if (clip.jump) {
+    table.set_meta("movement", "jump");
+    number("take_off_s", clip.stands_first_s + clip.jump->take_off_s());
+    number("landing_s", clip.stands_first_s + clip.jump->landing_s());
+  }
   number("speed_m_s", motion.speed_m_s());
   number("metres_per_pixel", motion.camera(clip.duration_s() / 2).metres_per_pixel());
   number("camera_roll_rad", clip.camera.roll_rad);
@@ -95,14 +102,17 @@ Keypoints clicks(const Clip& clip) {
   keypoints.slow_motion = clip.slow_motion;
   keypoints.near_leg = clip.to_left ? Side::left : Side::right;
   Random random(clip.seed * 15485863 + clip.click_seed);
-  const double step = clip.gait.period_s / clip.time_s(kClicksPerStride);
+  if (clip.jump) keypoints.movement = "jump";
+  const double stride_s = clip.jump ? kUsualStride_s : clip.gait.period_s;
+  const double step = stride_s / clip.time_s(kClicksPerStride);
   for (double at = 0; at < clip.frames - 0.5; at += step) {
     const TrajectoryFrame& frame = truth.frames[static_cast<std::size_t>(std::lround(at))];
     ClickedFrame& clicked = keypoints.frames[frame.frame];
     clicked.time_s = frame.time_s;
     for (const BodyPart part :
          {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
-          BodyPart::ankle_l, BodyPart::toe_l}) {
+          BodyPart::ankle_l, BodyPart::toe_l, BodyPart::head}) {
+      if (part == BodyPart::head && !clip.jump) continue;
       const Eigen::Vector2d off(clip.click_sd_px * normal(random),
                                 clip.click_sd_px * normal(random));
       Click click;

@@ -9,6 +9,7 @@
 
 #include "calibrate/fit/ground_slope.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/movement.h"
 #include "extract/tracking/time_check.h"
 
 namespace stride::gait {
@@ -124,6 +125,7 @@ void judge_view(const Trajectory& trajectory, Verdict& verdict) {
     return;
   }
   judge_posture(trajectory, leg, verdict);
+  if (!movement(trajectory.movement).repeats) return;
   if (fore_aft < 0.3 * leg && vertical < 0.12 * leg)
     verdict.refuse(fmt::format(
         "the feet move by {:.0f} % of a leg: nobody runs here; is another person in the "
@@ -256,7 +258,8 @@ void judge_alarms(Verdict& verdict) {
 
 /// Whether the clip's time is the runner's. Returns whether it plays slowly, which then explains
 /// all that is odd about falling and speed.
-bool judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Verdict& verdict) {
+bool judge_time(const Trajectory& trajectory, const fit::StrideFit& fit, const Gait& gait,
+                double strides, Verdict& verdict) {
   const double period = fit.runner.cadence[cadence::period_s];
   if (strides < 0.9)
     verdict.refuse(fmt::format(
@@ -266,9 +269,12 @@ bool judge_time(const fit::StrideFit& fit, const Gait& gait, double strides, Ver
   else if (strides < 1.5)
     verdict.note(
         fmt::format("only {:.2f} strides are seen: nothing tells whether they repeat", strides));
-  if (gait.walks)
+  if (gait.walks && movement(trajectory.movement).gait == "run")
     verdict.note(
         fmt::format("this is walking: a foot stands for {:.0f} % of the stride", 100 * gait.duty));
+  if (!gait.walks && movement(trajectory.movement).gait == "walk")
+    verdict.alarm(fmt::format("this is running, not a {}: a foot stands for {:.0f} % of the stride",
+                              trajectory.movement, 100 * gait.duty));
   constexpr double kImpossible_s = 0.36;  // 5.6 steps a second
   const double shortest = gait.walks ? 0.75 : 0.45, longest = gait.walks ? 1.8 : 1.05;
   if (const std::string doubt = tracking::doubt_of_period(period, shortest, longest);
@@ -324,7 +330,7 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
   if (fit.explained < 0.75)
     verdict.refuse(
         fmt::format("no stride repeats: the best period explains {:.0f} % of how the legs "
-                    "move; is it one runner, with the legs told apart?",
+                    "move; is it one runner, with the legs told apart? A jump is --movement jump",
                     100 * std::max(fit.explained, 0.0)));
   if (relative > 0.1)
     verdict.refuse(
@@ -344,7 +350,8 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
     verdict.refuse(outliers);
   else if (fit.outlier_fraction > 0.12)
     verdict.alarm(outliers);
-  if (!judge_time(fit, gait, observations.duration_s / r.cadence[cadence::period_s], verdict))
+  if (!judge_time(trajectory, fit, gait, observations.duration_s / r.cadence[cadence::period_s],
+                  verdict))
     judge_speed(fit, gait, verdict);
   judge_scene(trajectory, leg_px, verdict);
   judge_camera(trajectory, verdict);

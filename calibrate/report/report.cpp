@@ -75,12 +75,49 @@ std::string residuals_by_part(const Calibration& c) {
   return text;
 }
 
+/// Of a movement that does not repeat.
+std::string passage_text(const Trajectory& trajectory, const SagittalModel& model,
+                         const Calibration& c) {
+  const AperiodicCalibration& own = *c.aperiodic;
+  if (!own.flight.ok) return {};
+  const aperiodic::Passage& p = own.fit.passage;
+  const double px_per_m = own.scale.px_per_m;
+  std::string text;
+  const auto line = [&]<typename... A>(fmt::format_string<A...> format, A&&... args) {
+    text += fmt::format(format, std::forward<A>(args)...) + "\n";
+  };
+  line("movement  {}: {} frames in {:.2f} s, the runner faces {}", trajectory.movement,
+       trajectory.frames.size(), c.observations.duration_s,
+       c.observations.to_left ? "left" : "right");
+  line(
+      "flight    from {:.3f} s to {:.3f} s, {:.3f} s long; take-off at {:.2f} m/s forward and "
+      "{:.2f} m/s upward",
+      c.run.take_off_s, c.run.landing_s, c.run.landing_s - c.run.take_off_s,
+      own.flight.velocity_px_s.x() / px_per_m, own.flight.velocity_px_s.y() / px_per_m);
+  line("length    the pelvis moves by {:.2f} m",
+       (own.path.pelvis_px.back() - own.path.pelvis_px.front()).x() / px_per_m);
+  line("scale     {:.3f} mm per pixel +- {:.1f} %", 1000 / px_per_m, 100 * own.scale.relative_sd);
+  line("          by free fall {:.3f} +- {:.1f} %; a usual leg would fall with {:.2f} g",
+       1000 / own.flight.px_per_m, 100 * own.flight.relative_sd, own.scale.fall_factor);
+  line("roll      {:+.2f} deg +- {:.2f} (the ground rises to the right)",
+       c.run.camera_roll_rad / kDegree, own.path.roll_sd_rad / kDegree);
+  line("runner    thigh {:.3f} m, shank {:.3f} m, together {:.3f} m; the model's {:.3f} and {:.3f}",
+       p.limbs[aperiodic::limb::thigh] / px_per_m, p.limbs[aperiodic::limb::shank] / px_per_m,
+       own.scale.leg_m, model.thigh_m(), model.shank_m());
+  line(
+      "fit       control points every {:.2f} s, {:.2f} px rms ({:.1f} cm), {:.1f} % of the marks "
+      "are outliers",
+      p.knot_s, own.fit.rms_px, 100 * c.run.rms_m, 100 * own.fit.outlier_fraction);
+  return text;
+}
+
 }  // namespace
 
 std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
                         const Calibration& c) {
   std::string text =
       fmt::format("clip      {}\nverdict   {}\n", trajectory.video, c.verdict.text());
+  if (c.aperiodic) return text + passage_text(trajectory, model, c);
   if (!c.fit.ok) return text;
   const Runner& r = c.fit.runner;
   const double leg = r.body[body::thigh] + r.body[body::shank];

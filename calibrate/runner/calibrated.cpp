@@ -6,6 +6,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace {
@@ -17,6 +18,8 @@ template <typename Calibrated, typename Visit>
 void visit_numbers(Calibrated& run, Visit visit) {
   visit("period_s", run.period_s);
   visit("period_sd_s", run.period_sd_s);
+  visit("take_off_s", run.take_off_s);
+  visit("landing_s", run.landing_s);
   visit("speed_m_s", run.speed_m_s);
   visit("metres_per_pixel", run.metres_per_pixel);
   visit("camera_roll_rad", run.camera_roll_rad);
@@ -62,6 +65,8 @@ CalibratedTrajectory load_calibrated(const std::filesystem::path& file) {
   CalibratedTrajectory run;
   run.source = table.meta("source");
   run.source_sha256 = table.meta("source_sha256");
+  if (table.has_meta("movement"))
+    run.movement = movement(table.meta("movement"), file.string() + ": movement").name;
   run.model = table.meta("model");
   run.verdict = table.meta("verdict");
   visit_numbers(run, [&](const char* key, double& value) {
@@ -96,6 +101,7 @@ void save(const CalibratedTrajectory& run, const std::filesystem::path& file) {
   table.set_meta("unit", "m");
   table.set_meta("source", run.source);
   table.set_meta("source_sha256", run.source_sha256);
+  if (run.movement != kDefaultMovement) table.set_meta("movement", run.movement);
   table.set_meta("model", run.model);
   visit_numbers(run, [&](const char* key, double value) {
     if (std::isfinite(value)) table.set_meta(key, fmt::format("{}", value));

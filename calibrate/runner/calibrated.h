@@ -21,7 +21,9 @@ inline constexpr std::array<const char*, 9> kCoordinateNames{
 /// shows, y up.
 struct CalibratedSample {
   double time_s = 0;
-  double phase = 0;                     // of the stride, [0, 1); 0 = right foot strike if known
+  /// Of the stride, [0, 1), 0 = right foot strike if known; of a movement that does not repeat from
+  /// its beginning, 0, to its end, 1.
+  double phase = 0;
   std::array<double, 9> coordinates{};  // kCoordinateNames; pelvis_ty above the ground
   double pelvis_height_sd_m = std::numeric_limits<double>::quiet_NaN();
   /// p_PK of every part of the model: from the model's pelvis origin P (7.1 cm in front of and 6.6
@@ -42,8 +44,11 @@ struct CalibratedTrajectory {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   std::string source, source_sha256;  // the video, or the run folder of an agent
+  std::string movement = "run";       // a name of movements.toml
   std::string model;                  // name of the model whose proportions these are
-  double period_s = kUnknown, period_sd_s = kUnknown;  // of the stride
+  /// Of the stride, or of a movement that does not repeat from its beginning to its end.
+  double period_s = kUnknown, period_sd_s = kUnknown;
+  double take_off_s = kUnknown, landing_s = kUnknown;  // of a jump, in the time of the samples
   double speed_m_s = kUnknown;
   double metres_per_pixel = kUnknown, camera_roll_rad = kUnknown;
   double rms_px = kUnknown, rms_m = kUnknown;  // measured points against the fit

@@ -44,6 +44,7 @@ Json json_of(const ClipSettings& s) {
             {"slow_motion", s.slow_motion},
             {"notes", s.notes}};
   if (s.corrects_network) json["corrects_network"] = true;
+  if (s.movement != ClipSettings().movement) json["movement"] = s.movement;
   if (s.treadmill) json["treadmill"] = *s.treadmill;
   if (s.trim) json["trim"] = Json::array({s.trim->first, s.trim->last});
   if (s.floor) json["floor"] = Json::array({json_of(s.floor->from_px), json_of(s.floor->to_px)});
@@ -57,6 +58,7 @@ ClipSettings settings_of(const Json& json) {
   s.slow_motion = json.at("slow_motion");
   s.notes = json.at("notes");
   s.corrects_network = json.value("corrects_network", false);
+  if (json.contains("movement")) s.movement = json.at("movement");
   if (json.contains("treadmill")) s.treadmill = json.at("treadmill").get<bool>();
   if (json.contains("trim"))
     s.trim = {frame_of(json.at("trim").at(0)), frame_of(json.at("trim").at(1))};

@@ -5,8 +5,8 @@
 namespace stride::annotation {
 
 ClipSettings settings_of(const Keypoints& k) {
-  return {k.direction, k.near_leg, k.slow_motion, k.treadmill,
-          k.trim,      k.floor,    k.notes,       k.corrects_network};
+  return {k.direction, k.near_leg, k.slow_motion,      k.treadmill, k.trim,
+          k.floor,     k.notes,    k.corrects_network, k.movement};
 }
 
 namespace {
@@ -20,6 +20,7 @@ void set(Keypoints& k, const ClipSettings& settings) {
   k.floor = settings.floor;
   k.notes = settings.notes;
   k.corrects_network = settings.corrects_network;
+  k.movement = settings.movement;
 }
 
 bool is_empty(const ClickedFrame& frame) {

@@ -20,6 +20,7 @@ struct ClipSettings {
   std::optional<FloorLine> floor;
   std::string notes;
   bool corrects_network = false;
+  std::string movement = "run";  // a name of movements.toml
 };
 
 ClipSettings settings_of(const Keypoints& keypoints);

@@ -7,6 +7,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace fs = std::filesystem;
@@ -154,6 +155,9 @@ Keypoints load_keypoints(const fs::path& path) {
   k.video_sha256 = value<std::string>(json, "video_sha256", file, "64 hexadecimal digits");
   k.width_px = value<int>(json, "width_px", file, "a whole number of pixels");
   k.height_px = value<int>(json, "height_px", file, "a whole number of pixels");
+  k.movement = movement(value_or<std::string>(json, "movement", kDefaultMovement, file, "a name"),
+                        file + ": movement")
+                   .name;
   k.direction = one_of(kFacings, json, "direction", file);
   k.near_leg = one_of(kSides, json, "near_leg", file);
   k.slow_motion = value_or<double>(json, "slow_motion", 1, file, "a factor");
@@ -180,9 +184,10 @@ Keypoints load_keypoints(const fs::path& path) {
   require(json.contains("frames") && json.at("frames").is_array(),
           "{}: \"frames\" must be a list of clicked frames", file);
   for (const Json& frame : json.at("frames")) read_frame(frame, file, k);
-  k.other_json = others(json, {"format", "version", "video", "video_sha256", "width_px",
-                               "height_px", "direction", "near_leg", "slow_motion", "treadmill",
-                               "trim", "floor_line_px", "corrects", "notes", "frames"});
+  k.other_json =
+      others(json, {"format", "version", "video", "video_sha256", "width_px", "height_px",
+                    "movement", "direction", "near_leg", "slow_motion", "treadmill", "trim",
+                    "floor_line_px", "corrects", "notes", "frames"});
   check(k, file);
   return k;
 }
@@ -234,6 +239,7 @@ std::string text_of(const Keypoints& k) {
             {"direction", name_or_empty(kFacings, k.direction)},
             {"near_leg", name_or_empty(kSides, k.near_leg)},
             {"slow_motion", k.slow_motion}};
+  if (k.movement != kDefaultMovement) json["movement"] = k.movement;
   if (k.treadmill) json["treadmill"] = *k.treadmill;
   if (k.trim) json["trim"] = {{"first_frame", k.trim->first}, {"last_frame", k.trim->last}};
   if (k.floor)

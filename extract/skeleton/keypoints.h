@@ -56,6 +56,7 @@ struct Keypoints {
   std::string video;         // file name, without folder
   std::string video_sha256;  // of the file's bytes
   int width_px = 0, height_px = 0;
+  std::string movement = "run";     // a name of movements.toml
   std::optional<Facing> direction;  // none: not said
   std::optional<Side> near_leg;     // the leg nearer to the camera; none: not said
   double slow_motion = 1;           // seconds of video per second of the runner

@@ -7,6 +7,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride {
 namespace {
@@ -36,6 +37,8 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   trajectory.direction = kFacings.find(direction);
   require(trajectory.direction || direction.empty(), "{}: direction = {}: must be {}",
           file.string(), direction, kFacings.list(" or "));
+  if (table.has_meta("movement"))
+    trajectory.movement = movement(table.meta("movement"), file.string() + ": movement").name;
   if (table.has_meta("floor_roll_rad"))
     trajectory.floor_roll_rad = table.meta_number("floor_roll_rad");
   require(std::isfinite(trajectory.rate_hz) && trajectory.rate_hz > 0,
@@ -91,6 +94,7 @@ Table table_of(const Trajectory& trajectory) {
   table.set_meta("height_px", fmt::format("{}", trajectory.height_px));
   table.set_meta("rate_hz", fmt::format("{}", trajectory.rate_hz));
   table.set_meta("direction", std::string(name_or_empty(kFacings, trajectory.direction)));
+  if (trajectory.movement != kDefaultMovement) table.set_meta("movement", trajectory.movement);
   if (std::isfinite(trajectory.floor_roll_rad))
     table.set_meta("floor_roll_rad", fmt::format("{}", trajectory.floor_roll_rad));
   if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");

@@ -73,6 +73,7 @@ struct Trajectory {
   std::optional<Facing> direction;  // none: not known
   double floor_roll_rad =
       std::numeric_limits<double>::quiet_NaN();  // slope of a marked floor line; NaN: none
+  std::string movement = "run";                  // a name of movements.toml
   std::optional<bool> treadmill;  // the runner stays in place before a background at rest
   std::vector<TrajectoryFrame> frames;
 };

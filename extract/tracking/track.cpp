@@ -6,6 +6,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/movement.h"
 #include "extract/tracking/measurements.h"
 #include "extract/tracking/optical_flow.h"
 
@@ -201,8 +202,12 @@ Followed best_followed(const Trajectory& marks, const video::DecodedClip& clip,
   constexpr double kClearly = 0.1;
   const auto first = clip.times_s.begin() + marks.frames.front().frame,
              last = clip.times_s.begin() + marks.frames.back().frame;
-  const std::vector<gaussian_process::GaitPrior> likely = gaussian_process::likely_gait_priors(
-      observations_of(measurements_of(marks), clip.times_s), period_bounds({first, last + 1}));
+  const gaussian_process::Observations clicks =
+      observations_of(measurements_of(marks), clip.times_s);
+  if (!movement(marks.movement).repeats)
+    return followed(gaussian_process::fit_passage_prior(clicks), marks, clip, options);
+  const std::vector<gaussian_process::GaitPrior> likely =
+      gaussian_process::likely_gait_priors(clicks, period_bounds({first, last + 1}));
   Followed best = followed(likely.front(), marks, clip, options);
   if (likely.size() > 1 && !best.stretches.empty() && best.inlier() < kSurely) {
     Followed other = followed(likely.back(), marks, clip, options);
@@ -251,7 +256,7 @@ Tracked track(const Trajectory& marks, const video::DecodedClip& clip,
         if (mark[part].present())
           tracked.trajectory.frames[static_cast<std::size_t>(mark.frame - first)][part].p_px =
               mark[part].p_px;
-  if (!marks.treadmill)
+  if (!marks.treadmill && movement(marks.movement).repeats)
     tracked.trajectory.treadmill =
         is_treadmill(tracked.trajectory, video::body_size_px(marks), summary.prior.legs.period_s);
   return tracked;
@@ -263,6 +268,7 @@ Trajectory marks_of(const Keypoints& keypoints) {
   marks.video_sha256 = keypoints.video_sha256;
   marks.width_px = keypoints.width_px;
   marks.height_px = keypoints.height_px;
+  marks.movement = keypoints.movement;
   marks.direction = keypoints.direction;
   marks.treadmill = keypoints.treadmill;
   if (keypoints.floor) {

@@ -19,6 +19,7 @@
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
 #include "extract/pose/weights.h"
+#include "extract/skeleton/movement.h"
 #include "extract/video/overlay.h"
 #include "extract/video/repeated.h"
 
@@ -123,6 +124,7 @@ class Clip {
 
   CalibratedTrajectory calibrated(Trajectory trajectory) {
     if (clip_.direction) trajectory.direction = clip_.direction;
+    if (!clip_.movement.empty()) trajectory.movement = clip_.movement;
     result_.frames = static_cast<int>(trajectory.frames.size());
     const Calibration calibration = calibrate(trajectory, model_, fit::fit_options(clip_.size));
     std::string report = report::report_text(trajectory, model_, calibration);
@@ -133,7 +135,7 @@ class Clip {
           trajectory, model_, calibration,
           is_video(input_) ? input_ : report::video_in(input_.parent_path(), trajectory),
           out(".report.svg"));
-    const bool accepted = !calibration.verdict.refused || (clip_.force && calibration.fit.ok);
+    const bool accepted = !calibration.verdict.refused || (clip_.force && calibration.ok());
     require(accepted, "{}", calibration.verdict.text());
     describe(calibration.run, calibration.observations.duration_s);
     save(calibration.run, out(kCalibrated));
@@ -147,7 +149,9 @@ class Clip {
     points.network = options_.network;
     points.landmarks = options_.landmarks;
     points.person = options_.person;
-    const tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
+    points.repair_legs = clip_.movement.empty() || movement(clip_.movement).repeats;
+    tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
+    if (!clip_.movement.empty()) labelled.marks.movement = clip_.movement;
     result_.points = labelled.points;
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
     save(trajectory, out(kTrajectory));
@@ -175,6 +179,7 @@ class Clip {
         name_or_empty(kFacings, clip_.direction), clip_.slow_motion, clip_.force, k.count, k.foot,
         k.symmetric, kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
     all += fmt::format(" {} {} {}", k.weight, options_.network, options_.person);
+    if (!clip_.movement.empty()) all += " " + clip_.movement;
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));
     return all;
@@ -182,7 +187,8 @@ class Clip {
 
   bool is_done(const std::string& stamp) {
     if (!fs::exists(out(".converted.json")) || !fs::exists(out(".potential.json"))) return false;
-    const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg"));
+    const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg")) ||
+                       !load_potential(out(".potential.json")).repeats;
     if (options_.pictures && !drawn) return false;
     if (options_.overlay && is_video(input_) && !fs::exists(out(kOverlay))) return false;
     const auto json = nlohmann::json::parse(read_file(out(".converted.json")), nullptr, false);

@@ -15,6 +15,7 @@ namespace stride::pipeline {
 struct ClipOptions {
   fit::RunnerSize size;
   std::optional<Facing> direction;  // none: as the keypoints say
+  std::string movement;             // a name of movements.toml; empty: as the keypoints say
   double slow_motion = 0;  // seconds of video a second of the runner; 0: as the keypoints say
   bool force = false;      // convert a refused clip if there is a fit
   KeyframeOptions keyframes;
@@ -64,8 +65,8 @@ std::vector<std::filesystem::path> expand_inputs(
 std::string clip_name(const std::filesystem::path& input);
 
 /// Reads a TOML file: keys of every clip at the top, and of one under [clip.NAME]. Keys: height,
-/// leg, scale, direction, slow-motion, force, keyframes, foot, symmetric, function, index, epsilon,
-/// weight. Errors name file, key and value.
+/// leg, scale, direction, movement, slow-motion, force, keyframes, foot, symmetric, function,
+/// index, epsilon, weight. Errors name file, key and value.
 void load_convert_config(const std::filesystem::path& file, ConvertOptions& options);
 
 /// The results as a table.

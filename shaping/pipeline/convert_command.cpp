@@ -8,6 +8,7 @@
 #include "extract/io/error.h"
 #include "extract/io/option_range.h"
 #include "extract/parallel/ranks.h"
+#include "extract/skeleton/movement.h"
 #include "shaping/commands.h"
 #include "shaping/pipeline/convert.h"
 
@@ -29,6 +30,8 @@ void run(ConvertCommand command) {
   keyframes.index = potential_index(command.index);
   keyframes.symmetric = !command.asymmetric;
   options.pictures = !command.no_pictures;
+  if (!options.clip.movement.empty())
+    options.clip.movement = movement(options.clip.movement, "--movement").name;
   if (!command.config.empty()) pipeline::load_convert_config(command.config, options);
   options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
 
@@ -84,6 +87,9 @@ void add_convert_command(CLI::App& app) {
                    "times; click NAME.loop.mp4 in the folder of results")
       ->check(in_range(2, 100));
   add_direction_option(*convert, clip.direction);
+  convert->add_option(
+      "--movement", clip.movement,
+      "run, walk, jump or another of movements.toml (default: as the clicks say, or run)");
   convert->add_option("--keyframes", clip.keyframes.count, "of a stride, even")
       ->check(in_range(2, 200));
   convert->add_option("--foot", clip.keyframes.foot, "ankle or toe: the foot of the potential")

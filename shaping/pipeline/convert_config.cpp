@@ -6,6 +6,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/toml.h"
+#include "extract/skeleton/movement.h"
 #include "shaping/pipeline/convert.h"
 
 namespace stride::pipeline {
@@ -57,6 +58,8 @@ void apply(const Setting& setting, ClipOptions& clip) {
     clip.size = {.height_m = {}, .leg_m = {}, .metres_per_pixel = setting.number()};
   else if (key == "direction")
     clip.direction = kFacings.find(setting.one_of({"right", "left"}));
+  else if (key == "movement")
+    clip.movement = movement(setting.value, setting.file + ": movement").name;
   else if (key == "slow-motion")
     clip.slow_motion = setting.number_in(0.05, 100);
   else if (key == "force")
@@ -77,7 +80,7 @@ void apply(const Setting& setting, ClipOptions& clip) {
     clip.keyframes.weight = setting.number();
   else
     throw Error(
-        fmt::format("{}: key '{}' is not known; use height, leg, scale, direction, "
+        fmt::format("{}: key '{}' is not known; use height, leg, scale, direction, movement, "
                     "slow-motion, force, keyframes, foot, symmetric, function, index, "
                     "epsilon, weight",
                     setting.file, key));

@@ -32,13 +32,13 @@ std::string counts(const std::array<int, kBodyPartCount>& seen) {
 
 std::string about_potential(const Potential& p) {
   std::string text = fmt::format(
-      "potential of {} on {}\nverdict   {}\nstride    {:.4f} s +- {:.4f}, {:.2f} m/s\n"
+      "potential of {} on {}\nmovement  {}\nverdict   {}\n{}    {:.4f} s +- {:.4f}, {:.2f} m/s\n"
       "function  {}, epsilon {} m, weight {}, keyframe by {}, foot = {}\n"
       "fit       {:.2f} px rms, {:.1f} cm\n"
       "phase   pelvis    knee_r          foot_r          knee_l          foot_l (m; +- 1 sd)\n",
-      p.source, p.model, p.verdict, p.period_s, p.period_sd_s, p.speed_m_s,
-      kInverseDistances[p.function], p.epsilon_m, p.weight, kPotentialIndices[p.index], p.foot,
-      p.rms_px, 100 * p.rms_m);
+      p.source, p.model, p.movement, p.verdict, p.repeats ? "stride" : "lasts ", p.period_s,
+      p.period_sd_s, p.speed_m_s, kInverseDistances[p.function], p.epsilon_m, p.weight,
+      kPotentialIndices[p.index], p.foot, p.rms_px, 100 * p.rms_m);
   for (const Keyframe& k : p.keyframes) {
     const auto row = [](const Pose& pose) {
       std::string numbers = fmt::format("{:7.3f}", pose.pelvis_height_m());
@@ -56,10 +56,11 @@ std::string about_keypoints(const Keypoints& k) {
   std::array<int, kBodyPartCount> seen{};
   for (const auto& [number, frame] : k.frames)
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].has_value() ? 1 : 0;
-  return fmt::format("clicks on {}, {} x {}, the runner faces {}\n{} frames, {} to {}\n{}", k.video,
-                     k.width_px, k.height_px, k.direction ? kFacings[*k.direction] : "(not said)",
-                     k.frames.size(), k.frames.empty() ? 0 : k.frames.begin()->first,
-                     k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen));
+  return fmt::format(
+      "clicks on {}, {} x {}, movement {}, the runner faces {}\n{} frames, {} to {}\n{}", k.video,
+      k.width_px, k.height_px, k.movement, k.direction ? kFacings[*k.direction] : "(not said)",
+      k.frames.size(), k.frames.empty() ? 0 : k.frames.begin()->first,
+      k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen));
 }
 
 std::string about_trajectory(const Trajectory& t) {
@@ -67,21 +68,21 @@ std::string about_trajectory(const Trajectory& t) {
   for (const TrajectoryFrame& frame : t.frames)
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].present() ? 1 : 0;
   return fmt::format(
-      "trajectory of {} in pixels, {} x {} at {:.2f} Hz, the runner faces {}\n{} "
+      "trajectory of {} in pixels, {} x {} at {:.2f} Hz, movement {}, the runner faces {}\n{} "
       "frames; marks:\n{}",
-      t.video, t.width_px, t.height_px, t.rate_hz,
+      t.video, t.width_px, t.height_px, t.rate_hz, t.movement,
       t.direction ? kFacings[*t.direction] : "(not said)", t.frames.size(), counts(seen));
 }
 
 std::string about_calibrated(const CalibratedTrajectory& c) {
   const double duration_s = c.samples.back().time_s - c.samples.front().time_s;
   return fmt::format(
-      "run of {} on {}\nverdict   {}\nstride    {:.4f} s +- {:.4f}, {:.2f} of them, "
+      "run of {} on {}\nmovement  {}\nverdict   {}\nstride    {:.4f} s +- {:.4f}, {:.2f} of them, "
       "{:.2f} m/s\nscale     {:.3f} mm per pixel, roll {:.2f} deg\nfit       {:.2f} "
       "px rms, {:.1f} cm\nsamples   {}\n",
-      c.source, c.model, c.verdict, c.period_s, c.period_sd_s, duration_s / c.period_s, c.speed_m_s,
-      1000 * c.metres_per_pixel, c.camera_roll_rad * 180 / M_PI, c.rms_px, 100 * c.rms_m,
-      c.samples.size());
+      c.source, c.model, c.movement, c.verdict, c.period_s, c.period_sd_s, duration_s / c.period_s,
+      c.speed_m_s, 1000 * c.metres_per_pixel, c.camera_roll_rad * 180 / M_PI, c.rms_px,
+      100 * c.rms_m, c.samples.size());
 }
 
 std::string about_model(const osim::Model& m) {

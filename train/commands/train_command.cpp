@@ -6,6 +6,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/parallel/ranks.h"
+#include "extract/skeleton/movement.h"
 #include "train/commands/interrupt.h"
 #include "train/ppo/train_run.h"
 #include "train/training/runner_factory.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 /// The command line's options.
 struct Request {
-  std::string potential, reference, out, resume, preset, config;
+  std::string potential, reference, movement, out, resume, preset, config;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed, decisions;
   bool baseline = false;
@@ -30,14 +31,19 @@ void apply_overrides(const Request& request, training::TrainOptions& options) {
   if (request.decisions) options.run.decisions = *request.decisions;
 }
 
-/// A new run: the preset, then the config file, then the command line. Returns its folder.
+/// A new run: the preset, the movement of the potential, then the config file, then the command
+/// line. Returns its folder.
 fs::path begin(const Request& request) {
   require(!request.out.empty(), "--out: name the folder of the run");
   require(request.potential.empty() != !request.baseline,
           "give either --potential FILE, or --baseline to train without one");
   training::TrainOptions options;
   training::read_toml(training::preset_file(request.preset), options);
+  task::TaskOptions& task = options.environment.task;
+  if (!request.potential.empty())
+    task = task::task_of(load_potential(request.potential).movement, request.potential);
   if (!request.config.empty()) training::read_toml(request.config, options);
+  if (!request.movement.empty()) task = task::task_of(request.movement, "--movement");
   apply_overrides(request, options);
   if (!request.potential.empty())
     options.shaping.source = fs::absolute(request.potential).lexically_normal().string();
@@ -54,8 +60,8 @@ fs::path begin(const Request& request) {
 /// An existing run; only its length may be changed.
 fs::path resume(const Request& request) {
   require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
-              !request.baseline && request.config.empty() && request.assignments.empty() &&
-              !request.seed,
+              request.movement.empty() && !request.baseline && request.config.empty() &&
+              request.assignments.empty() && !request.seed,
           "--resume {}: a run keeps its configuration; only --decisions may be given with it",
           request.resume);
   const fs::path run = request.resume;
@@ -98,6 +104,9 @@ void add_train_command(CLI::App& app) {
   command->add_option("--reference", request->reference,
                       "Run on which episodes may start; NAME.calibrated.csv beside the potential "
                       "if not given");
+  command->add_option("--movement", request->movement,
+                      "Whose task the agent learns: run, walk, jump or another of movements.toml; "
+                      "that of the potential if not given");
   command->add_flag("--baseline", request->baseline, "Train without a potential");
   command->add_option("--out", request->out, "Folder of the run, new");
   command->add_option("--seed", request->seed, "Of every random number");

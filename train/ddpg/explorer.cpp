@@ -124,7 +124,8 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
   record.phase = phase();
   if (setup_.potential != nullptr) {
     record.phi = (*setup_.potential)(pose, record.phase);
-    record.phi_mirrored = (*setup_.potential)(pose.mirrored(), record.phase + 0.5);
+    record.phi_mirrored =
+        (*setup_.potential)(pose.mirrored(), record.phase + setup_.potential->mirrored_after);
   }
   features = features_.template cast<Scalar>();
   if (state_.over) {

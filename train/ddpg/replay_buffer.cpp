@@ -148,7 +148,7 @@ void ReplayBuffer<Scalar>::set_potential(const Potential& potential) {
     for (int e = 0; e < layout_.environments; ++e) {
       Record& r = record(round, e);
       r.phi = potential(r.pose, r.phase);
-      r.phi_mirrored = potential(r.pose.mirrored(), r.phase + 0.5);
+      r.phi_mirrored = potential(r.pose.mirrored(), r.phase + potential.mirrored_after);
     }
 }
 

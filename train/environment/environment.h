@@ -16,7 +16,7 @@ struct Step {
   Eigen::VectorXd observation;  // of the state after the step
   double reward = 0;
   bool terminated = false;  // the runner fell, or its state could not be integrated
-  bool truncated = false;   // the time limit was reached; never together with `terminated`
+  bool truncated = false;   // time limit or task done; never together with `terminated`
   bool failed = false;      // terminated because the state could not be integrated
 };
 
@@ -58,7 +58,8 @@ class Environment {
   /// The pose of the current state, for the potential.
   virtual Pose pose() const = 0;
 
-  /// Simulated time since reset(), and the distance covered since then (of the pelvis).
+  /// Simulated time since reset(), and the measure of the task since then: of a run the distance
+  /// that the pelvis covered.
   virtual double time_s() const = 0;
   virtual double distance_m() const = 0;
 

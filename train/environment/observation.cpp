@@ -38,7 +38,7 @@ bool is_position_along_ground(const std::string& name) {
 
 Observer::Observer(const EnvironmentSpec& spec, const ObservationOptions& options,
                    double decision_s)
-    : decision_s_(decision_s), phase_(options.phase) {
+    : decision_s_(decision_s), phase_(options.phase), phase_as_(options.phase_as) {
   const int base = std::min(options.robust ? 0 : kCompetitionObservations,
                             static_cast<int>(spec.observation_names.size()));
   const auto take = [this](const std::string& name, int value, int origin = -1) {
@@ -90,8 +90,10 @@ Observer::Observer(const EnvironmentSpec& spec, const ObservationOptions& option
   }
   last_rates_.resize(static_cast<Eigen::Index>(rates_.size()));
   if (phase_) {
-    names_.push_back("phase_sin");
-    names_.push_back("phase_cos");
+    if (phase_as_ == PhaseAs::passage) names_.push_back("passage");
+    if (phase_as_ == PhaseAs::cycle) names_.insert(names_.end(), {"cycle_sin", "cycle_cos"});
+    if (phase_as_ == PhaseAs::phase_of_turns)
+      names_.insert(names_.end(), {"phase_sin", "phase_cos"});
   }
 }
 
@@ -106,7 +108,9 @@ void Observer::observe(const Eigen::VectorXd& observation, double phase,
     features[i++] = (rate - last_rates_[k]) / decision_s_;
     last_rates_[k] = rate;
   }
-  if (phase_) {
+  if (phase_ && phase_as_ == PhaseAs::passage) {
+    features[i++] = std::clamp(phase, 0.0, 1.0);
+  } else if (phase_) {
     features[i++] = std::sin(2 * std::numbers::pi * phase);
     features[i++] = std::cos(2 * std::numbers::pi * phase);
   }

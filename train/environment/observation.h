@@ -8,12 +8,17 @@
 
 namespace stride::environment {
 
+/// How a phase is told: by sine and cosine that change their sign as legs in turn are mirrored, by
+/// sine and cosine that do not, or as it is, from 0 to 1.
+enum class PhaseAs { phase_of_turns, cycle, passage };
+
 struct ObservationOptions {
   bool robust = false;      // what RobustFeatures makes of the 41, instead of the late and the rest
   bool centre = true;       // x positions are measured from the pelvis
   bool derived = false;     // the 71 features that the paper adds to the competition's 41
   bool activations = true;  // of the runner's own muscles
   bool phase = true;        // sine and cosine of the phase of the stride
+  PhaseAs phase_as = PhaseAs::phase_of_turns;
 };
 
 /// The agent's view of the environment: 41 → 112 features as in the paper (Sec. "State
@@ -45,6 +50,7 @@ class Observer {
 
   double decision_s_;
   bool phase_;
+  PhaseAs phase_as_;
   std::vector<std::string> names_;
   std::vector<Difference> taken_;  // features that are elements, or differences of two
   std::vector<int> rates_;         // velocities whose change is a feature

@@ -41,6 +41,7 @@ double deepest_contact(const osim::Model& model, const simulation::RunnerKinemat
 RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptions& options)
     : options_(options),
       engine_(simulation::make_engine(options.engine, model, engine_options(options))),
+      task_(task::make_task(options.task, model)),
       sensors_(model),
       robust_features_(model, options.rules),
       knee_r_(model.body("tibia_r")),
@@ -48,7 +49,8 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
   competition::check_scene_options(options.difficulty, options.max_obstacles);
   require(options.accuracy > 0 && options.accuracy <= 0.1,
           "accuracy = {}: must be in (0, 0.1]; 1e-3 is usual", options.accuracy);
-  require(options.max_steps > 0, "max_steps = {}: must be > 0", options.max_steps);
+  require(options.max_steps >= 0, "max_steps = {}: must be > 0, or 0: as the task has it",
+          options.max_steps);
   require(options.foot == "ankle" || options.foot == "toe", "foot \"{}\": must be ankle or toe",
           options.foot);
   require(options.reference_share >= 0 && options.reference_share <= 1,
@@ -69,7 +71,10 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
                                  RobustFeatures::names().end());
   spec_.action_names.assign(simulation::muscle_names().begin(), simulation::muscle_names().end());
   spec_.step_s = competition::kStep_s;
-  spec_.max_steps = options.max_steps;
+  spec_.max_steps = options.max_steps > 0
+                        ? options.max_steps
+                        : static_cast<int>(std::lround(task::time_limit_s(options.task.name) /
+                                                       competition::kStep_s));
   step_.observation.resize(static_cast<Eigen::Index>(spec_.observation_names.size()));
 }
 
@@ -92,8 +97,8 @@ const Eigen::VectorXd& RunnerEnvironment::reset(std::uint64_t seed) {
   else
     competition::set_initial_state(options_.raw_fibres ? options_.rules : competition::Rules::clean,
                                    *engine_);
-  start_x_m_ = engine_->state().q[simulation::kPelvisX];
   kinematics_ = engine_->kinematics();
+  task_->start({engine_->state(), kinematics_, reward_});
   observe();
   return step_.observation;
 }
@@ -156,10 +161,12 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
   kinematics_ = engine_->kinematics();
   reward_ = competition::step_reward(x_before, engine_->state(), kinematics_);
   observe();
-  step_.reward = reward_.sum();
+  const task::Outcome outcome = task_->step({engine_->state(), kinematics_, reward_});
+  step_.reward = outcome.reward;
   step_.failed = !report_.ok;
-  step_.terminated = step_.failed || competition::has_fallen(engine_->state());
-  step_.truncated = !step_.terminated && steps_ >= options_.max_steps;
+  step_.terminated = step_.failed || outcome.end == task::End::fall;
+  step_.truncated =
+      !step_.terminated && (outcome.end == task::End::done || steps_ >= spec_.max_steps);
   if (step_.terminated || step_.truncated) {
     running_ = false;
     ++(step_.failed ? tally_.failures : step_.terminated ? tally_.falls : tally_.time_limits);

@@ -12,6 +12,7 @@
 #include "train/simulation/competition/rules.h"
 #include "train/simulation/competition/sensors.h"
 #include "train/simulation/make_engine.h"
+#include "train/task/task.h"
 
 namespace stride::environment {
 
@@ -21,7 +22,8 @@ struct RunnerOptions {
   int difficulty = 0;     // 0: flat; 1: obstacles; 2: obstacles and weak muscles
   int max_obstacles = 3;  // 0 to 20
   double accuracy = 1e-3;
-  int max_steps = competition::kMaxSteps;
+  int max_steps = 0;           // 0: the time limit of the task
+  task::TaskOptions task;      // reward, end and measure
   std::string foot = "ankle";  // of pose(): "ankle" (origin of talus) or "toe" (of toes)
   /// Reference state initialisation: this share of the episodes starts from a random sample of a
   /// calibrated run, with its speeds and with fibres in equilibrium whatever the rules. The runner
@@ -36,9 +38,10 @@ struct RunnerOptions {
   bool raw_fibres = true, drop_contacts = true;
 };
 
-/// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation, reward and
-/// end of an episode as in the competition (see Sensors, Reward, Rules), which distinguish a fall
-/// from the time limit. An action is the excitation of each muscle for 0.01 s.
+/// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation as in
+/// the competition (see Sensors, Rules), reward and end of an episode as in the task, by default
+/// the competition's. What is done ends an episode as the time limit does: the runner stands on. An
+/// action is the excitation of each muscle for 0.01 s.
 class RunnerEnvironment final : public Environment {
  public:
   /// Throws Error naming the option that is out of range, or why the engine refuses the model.
@@ -49,9 +52,7 @@ class RunnerEnvironment final : public Environment {
   const Step& step(const Eigen::VectorXd& action) override;
   Pose pose() const override;
   double time_s() const override { return engine_->state().time_s; }
-  double distance_m() const override {
-    return engine_->state().q[simulation::kPelvisX] - start_x_m_;
-  }
+  double distance_m() const override { return task_->measure_m(); }
   double initial_phase() const override { return initial_phase_; }
 
   const simulation::Engine& engine() const { return *engine_; }
@@ -78,6 +79,7 @@ class RunnerEnvironment final : public Environment {
   RunnerOptions options_;
   EnvironmentSpec spec_;
   std::unique_ptr<simulation::Engine> engine_;
+  std::unique_ptr<task::Task> task_;
   competition::Sensors sensors_;
   LatePositions late_positions_;
   RobustFeatures robust_features_;
@@ -91,7 +93,7 @@ class RunnerEnvironment final : public Environment {
   Tally tally_;
   int steps_ = 0;
   bool running_ = false;
-  double start_x_m_ = 0, initial_phase_ = 0;
+  double initial_phase_ = 0;
 };
 
 }  // namespace stride::environment

@@ -9,6 +9,7 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
+#include "extract/skeleton/movement.h"
 #include "train/film/evaluation_film.h"
 #include "train/rollout/human_gait.h"
 #include "train/training/runner_factory.h"
@@ -57,6 +58,12 @@ Json to_json(const std::optional<rollout::ClipLikeness>& likeness) {
           {"inside_share", number(likeness->inside_share)}};
 }
 
+/// The people whose gait it is compared with; none at speeds at which they do not run.
+std::optional<rollout::HumanGait> human_of(const Evaluation& evaluation) {
+  if (movement(evaluation.task.movement).compare != "runners") return std::nullopt;
+  return rollout::human_gait(evaluation.gait.speed_m_s);
+}
+
 Json to_json(const Evaluation& evaluation, const fs::path& agent) {
   const EpisodeStatistics& statistics = evaluation.statistics;
   Json episodes = Json::array();
@@ -67,20 +74,25 @@ Json to_json(const Evaluation& evaluation, const fs::path& agent) {
                         {"time_s", episode.time_s},
                         {"fell", episode.fell},
                         {"failed", episode.failed}});
-  return {{"format", "stride-evaluation"},
-          {"version", 1},
-          {"agent", agent.filename().string()},
-          {"distance_m", statistics.distance_m},
-          {"distance_se_m", number(statistics.distance_se_m)},
-          {"distance_95_m", to_json(statistics.distance_95_m)},
-          {"finished_distance_m", number(statistics.finished_distance_m)},
-          {"falls", statistics.falls},
-          {"fall_share_95", to_json(statistics.fall_share_95)},
-          {"median_seed", evaluation.first_seed + median_episode(evaluation.episodes)},
-          {"gait", to_json(evaluation.gait)},
-          {"human_at_this_speed", to_json(rollout::human_gait(evaluation.gait.speed_m_s))},
-          {"clip", to_json(evaluation.likeness)},
-          {"episodes", episodes}};
+  Json json{{"format", "stride-evaluation"},
+            {"version", 1},
+            {"agent", agent.filename().string()},
+            {"distance_m", statistics.distance_m},
+            {"distance_se_m", number(statistics.distance_se_m)},
+            {"distance_95_m", to_json(statistics.distance_95_m)},
+            {"finished_distance_m", number(statistics.finished_distance_m)},
+            {"falls", statistics.falls},
+            {"fall_share_95", to_json(statistics.fall_share_95)},
+            {"median_seed", evaluation.first_seed + median_episode(evaluation.episodes)},
+            {"gait", to_json(evaluation.gait)},
+            {"human_at_this_speed", to_json(human_of(evaluation))},
+            {"clip", to_json(evaluation.likeness)},
+            {"episodes", episodes}};
+  if (evaluation.task.movement != kDefaultMovement) {
+    json["movement"] = evaluation.task.movement;
+    json["measure"] = task::measure_of(evaluation.task.name);
+  }
+  return json;
 }
 
 template <typename Scalar>
@@ -105,11 +117,15 @@ std::string Evaluation::brief_report() const {
         statistics.distance_se_m, episodes.size(), statistics.finished_distance_m,
         100 * statistics.fall_share_95.first, 100 * statistics.fall_share_95.second);
   const network::EpisodeSummary& median = episodes[median_episode(episodes)];
+  if (task.movement != kDefaultMovement)
+    text = fmt::format("{}: {}: {}", task.movement, task::measure_of(task.name), text);
   text += fmt::format(", {} falls, {:.1f} s; {:.2f} m/s", statistics.falls, median.time_s,
                       gait.speed_m_s);
+  if (!movement(task.movement).repeats) return text;
   if (!std::isfinite(gait.duty_factor)) return text + ", too few steps to speak of a gait";
   text += fmt::format(", at last {:.2f}", gait.last_speed_m_s);
-  const std::optional<rollout::HumanGait> human = rollout::human_gait(gait.speed_m_s);
+  const std::optional<rollout::HumanGait> human = human_of(*this);
+  const bool compared = movement(task.movement).compare == "runners";
   const auto line = [&](const char* name, double value, rollout::GaitBand rollout::HumanGait::*band,
                         int digits) {
     text += fmt::format("\n  {:<18}{:>6.{}f}", name, value, digits);
@@ -130,7 +146,9 @@ std::string Evaluation::brief_report() const {
     text += fmt::format(
         "\n  {:<18}{:>6.2f}  of the joint angles inside the clip's band, rms {:.0f} deg",
         "like the clip", likeness->inside_share, likeness->angle_rms_deg);
-  return text + (human ? "" : "\n  humans do not run at this speed: no figures to compare with");
+  return text + (human || !compared
+                     ? ""
+                     : "\n  humans do not run at this speed: no figures to compare with");
 }
 
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
@@ -151,6 +169,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   const training::EnvironmentFactory make_environment =
       training::make_runners(train_options.environment, shaped_by);
   Evaluation evaluation;
+  evaluation.task = train_options.environment.task;
   evaluation.first_seed = static_cast<std::uint64_t>(options.first_seed);
   evaluation.episodes = run_episodes(agent, train_options, potential, make_environment,
                                      evaluation.first_seed, options.episodes, options.threads);
@@ -184,8 +203,11 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
           film::find_source(*potential, train_options.shaping.source.empty()
                                             ? run
                                             : fs::path(train_options.shaping.source).parent_path());
-    film::write_film(median, model, fmt::format("{:.1f} m", median.summary.distance_m), source,
-                     out / "evaluation.mp4");
+    const std::string title =
+        evaluation.task.movement == kDefaultMovement
+            ? fmt::format("{:.1f} m", median.summary.distance_m)
+            : fmt::format("{}: {:.2f} m", evaluation.task.movement, median.summary.distance_m);
+    film::write_film(median, model, title, source, out / "evaluation.mp4");
   }
   return evaluation;
 }

@@ -34,6 +34,7 @@ struct Evaluation {
   EpisodeStatistics statistics;
   rollout::GaitSummary gait;                      // of the median episode
   std::optional<rollout::ClipLikeness> likeness;  // of that to options.clip
+  task::TaskOptions task;                         // of the agent: the distances are its measure
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -99,7 +99,24 @@ std::string data_of(const std::vector<Band>& bands) {
   return text;
 }
 
-std::string script_of(const std::vector<Band>& bands, const PlotOptions& options) {
+/// What the evaluations of these runs measure.
+std::string measure_of(const std::vector<Arm>& arms) {
+  std::string measure;
+  for (const Arm& arm : arms)
+    for (const fs::path& run : arm.runs) {
+      const Table curve = load_table(run / "curve.csv", "curve", 1);
+      const std::string own =
+          curve.has_meta("measure") ? curve.meta("measure") : "distance in 10 s";
+      require(measure.empty() || measure == own,
+              "{}: measures the {}, the runs before it the {}: plot them apart", run.string(), own,
+              measure);
+      measure = own;
+    }
+  return measure;
+}
+
+std::string script_of(const std::vector<Band>& bands, const PlotOptions& options,
+                      const std::string& measure) {
   const std::string name = options.out.filename().string();
   const std::map<std::string, std::string> axes{
       {"decisions", "decisions"}, {"simulated", "simulated time (h)"}, {"wall", "wall clock (h)"}};
@@ -123,8 +140,7 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
       "set title {} noenhanced\n",
       crowded ? "key outside right top Left reverse" : "rmargin 5\nset key left top",
       options.against == "decisions" ? "%.0s%c" : "%g", axes.at(options.against),
-      gnuplot_string(options.column == "evaluation_distance_m" ? "distance in 10 s (m)"
-                                                               : options.column),
+      gnuplot_string(options.column == "evaluation_distance_m" ? measure + " (m)" : options.column),
       gnuplot_string(options.title));
   for (const auto& [terminal, extension] :
        {std::pair{"svg size 720,420 font 'sans,12' background rgb 'white'", "svg"},
@@ -173,7 +189,7 @@ void plot(const std::vector<Arm>& arms, const PlotOptions& options) {
   for (const Arm& arm : arms) bands.push_back(band_of(arm, options));
   const fs::path folder = fs::absolute(options.out).parent_path();
   const std::string name = options.out.filename().string();
-  const std::string script = script_of(bands, options);
+  const std::string script = script_of(bands, options, measure_of(arms));
   write_file_atomically(folder / (name + ".csv"), data_of(bands));
   write_file_atomically(folder / (name + ".gnuplot"), script);
   run_gnuplot(script, folder);

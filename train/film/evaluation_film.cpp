@@ -38,6 +38,13 @@ std::optional<SourceStride> find_source(const Potential& potential, const fs::pa
     const fs::path points = sibling(video, near, ".trajectory.csv");
     const std::optional<Trajectory> trajectory =
         points.empty() ? std::nullopt : std::optional(load_trajectory(points));
+    if (!potential.repeats) {
+      SourceStride source =
+          read_source_stride(video, run.samples.front().time_s, potential.period_s, 1,
+                             trajectory ? &*trajectory : nullptr);
+      source.repeats = false;
+      return source;
+    }
     for (std::size_t i = 1; i < run.samples.size(); ++i)
       if (run.samples[i].phase < run.samples[i - 1].phase)
         return read_source_stride(video, run.samples[i].time_s, potential.period_s, 1,

@@ -22,7 +22,7 @@ cv::Rect window(const cv::Mat& image, double pelvis_x_px, double aspect) {
 
 const cv::Mat& SourceStride::at(double wanted) const {
   const auto distance = [&](std::size_t i) {
-    return std::abs(std::remainder(phase[i] - wanted, 1.0));
+    return std::abs(repeats ? std::remainder(phase[i] - wanted, 1.0) : phase[i] - wanted);
   };
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < phase.size(); ++i)

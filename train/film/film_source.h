@@ -8,12 +8,14 @@
 
 namespace stride::film {
 
-/// One stride of the source video, repeated in phase with the runner.
+/// One stride of the source video, repeated in phase with the runner; or all of a movement that
+/// does not repeat.
 struct SourceStride {
   std::vector<double> phase;  // ascending, [0, 1)
   std::vector<cv::Mat> frames;
+  bool repeats = true;
 
-  /// The frame nearest to a phase (any real number, modulo 1).
+  /// The frame nearest to a phase (any real number, modulo 1 where it repeats).
   const cv::Mat& at(double phase) const;
 };
 

@@ -66,10 +66,15 @@ std::string verdict(const Json& evaluation, int inside, int compared) {
   const Json gait = evaluation.value("gait", Json::object());
   const std::size_t episodes = evaluation.value("episodes", Json::array()).size();
   const double se = number(evaluation, "distance_se_m"), phase = number(gait, "leg_phase");
-  std::string text = fmt::format("It comes {:.1f}", number(evaluation, "distance_m"));
+  const bool runs = !evaluation.contains("measure");
+  const double measured = number(evaluation, "distance_m");
+  std::string text = runs ? fmt::format("It comes {:.1f}", measured)
+                          : fmt::format("{}: {} {:.2f}", evaluation.value("movement", ""),
+                                        evaluation.value("measure", ""), measured);
   if (std::isfinite(se)) text += fmt::format(" ± {:.1f}", se);
-  text += fmt::format(" m far ({} episode{}, {} fall{})", episodes, episodes == 1 ? "" : "s",
-                      evaluation.value("falls", 0), evaluation.value("falls", 0) == 1 ? "" : "s");
+  text += fmt::format(" m{} ({} episode{}, {} fall{})", runs ? " far" : "", episodes,
+                      episodes == 1 ? "" : "s", evaluation.value("falls", 0),
+                      evaluation.value("falls", 0) == 1 ? "" : "s");
   if (const double speed = number(gait, "last_speed_m_s"); std::isfinite(speed))
     text += fmt::format(", at last with {:.2f} m/s", speed);
   if (std::isfinite(phase)) text += fmt::format("; {}", rollout::leg_pattern(phase));

@@ -23,8 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kSharedColumns = 12;  // of the curve, with the other learner's
 
-Table new_ppo_curve() {
-  Table table = training::new_curve();
+Table new_ppo_curve(const std::string& task) {
+  Table table = training::new_curve(task);
   table.columns.resize(kSharedColumns);
   for (const char* name : {"kl", "entropy", "value_loss", "explained_variance", "actor_rate"})
     table.columns.push_back(name);
@@ -114,7 +114,8 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
   if (fs::exists(training::checkpoint_file(run))) load_checkpoint(training, run);
   if (ranks.first()) ranks.wait_for_all();
   training::Progress& progress = training.progress;
-  training::Journal journal(run, new_ppo_curve(), progress, ranks.first() ? messages : nullptr);
+  training::Journal journal(run, new_ppo_curve(options.environment.task.name), progress,
+                            ranks.first() ? messages : nullptr);
   training::ThreadPool threads(options.run.threads);
   Evaluator evaluator(options, potential, make_environment, threads.size());
   training::TrainSummary summary;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "extract/io/error.h"
+#include "train/task/task.h"
 
 namespace stride::training {
 namespace {
@@ -39,11 +40,13 @@ double mean(double sum, double count) {
 
 }  // namespace
 
-Table new_curve() {
+Table new_curve(const std::string& task) {
   Table table;
   table.format = "curve";
   table.metadata = {{"units", "s, m; rewards as of the environment"},
                     {"evaluation", "without noise"}};
+  if (task != task::TaskOptions().name)
+    table.set_meta("measure", std::string(task::measure_of(task)));
   for (const Column& column : kColumns) table.columns.emplace_back(column.name);
   return table;
 }

@@ -13,7 +13,8 @@ namespace stride::training {
 /// evaluation_time_s, evaluation_falls (of episodes without noise, means); training_distance_m,
 /// training_reward (means over the episodes with noise that ended since the last row; empty: none);
 /// critic_loss, q, target, actor_gradient, critic_gradient (means over the updates since then).
-Table new_curve();
+/// A distance is the measure of the task; of another task than `distance` the metadata name it.
+Table new_curve(const std::string& task = "distance");
 
 /// A row of the curve. Its columns are in the order and of the names of the members.
 struct CurveRow {

@@ -4,6 +4,7 @@
 
 #include "calibrate/osim/model.h"
 #include "extract/io/error.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride::training {
 namespace fs = std::filesystem;
@@ -14,12 +15,34 @@ fs::path calibrated_beside(const fs::path& potential) {
   return fs::path(potential).replace_extension().replace_extension(".calibrated.csv");
 }
 
+/// A task and a demonstration that go together begin and end alike, and mirror alike.
+void require_movement(const std::string& name, const std::string& of_task,
+                      const std::string& file) {
+  const Movement &shown = movement(name), &wanted = movement(of_task);
+  require(
+      shown.repeats == wanted.repeats,
+      "{}: is of the movement {}, which {}; {}, whose task the agent is given, {}: name another "
+      "--movement, or the potential of another clip",
+      file, shown.name, shown.repeats ? "repeats" : "has a beginning and an end", wanted.name,
+      wanted.repeats ? "repeats" : "has a beginning and an end");
+}
+
+/// A movement of so long that ends before the time of its task is up.
+void require_a_passage(const Potential& p, const std::string& file) {
+  constexpr double kShortest_s = 0.3, kLongest_s = 10;
+  require(p.period_s >= kShortest_s && p.period_s <= kLongest_s,
+          "{}: the {} takes {:.2f} s, people's {} to {} s; if the clip plays in slow motion, "
+          "convert it again with --slow-motion",
+          file, p.movement, p.period_s, kShortest_s, kLongest_s);
+}
+
 /// What no runner does cannot be learned from.
 void require_a_run(const Potential& p, const std::string& file) {
   constexpr double kShortest_s = 0.3, kLongest_s = 2, kFastest_m_s = 12.5;
   require(!p.verdict.starts_with("refused"), "{}: the clip behind it was refused ({})", file,
           p.verdict);
-  require(p.period_s >= kShortest_s && p.period_s <= kLongest_s,
+  if (!p.repeats) require_a_passage(p, file);
+  require(!p.repeats || (p.period_s >= kShortest_s && p.period_s <= kLongest_s),
           "{}: a stride takes {:.2f} s, runners' {} to {} s; if the clip plays in slow motion, "
           "convert it again with --slow-motion",
           file, p.period_s, kShortest_s, kLongest_s);
@@ -63,6 +86,7 @@ Demonstration load_demonstration(const fs::path& potential, const fs::path& refe
   if (!potential.empty()) {
     demonstration.potential = load_potential(potential);
     require_a_run(*demonstration.potential, potential.string());
+    require_movement(demonstration.potential->movement, options.task.movement, potential.string());
     require_model(*demonstration.potential, potential.string(), options.model);
   }
   if (options.reference_share == 0 || (potential.empty() && reference.empty()))
@@ -73,6 +97,7 @@ Demonstration load_demonstration(const fs::path& potential, const fs::path& refe
           "{}): name it with --reference, or say --set environment.reference_share=0",
           file.string(), options.reference_share);
   demonstration.reference = load_calibrated(file);
+  require_movement(demonstration.reference->movement, options.task.movement, file.string());
   return demonstration;
 }
 

@@ -19,7 +19,8 @@ struct Demonstration {
 /// Reads NAME.potential.json and, where `options` want episodes to start on the reference
 /// (reference_share > 0), NAME.calibrated.csv beside it or `reference` if that is given. Either may
 /// be empty; without both the demonstration is. Throws Error naming the file that is missing and
-/// the cure, or what of the potential is no run on the model of `options`.
+/// the cure, or what of the potential is no movement on the model, or not of the task, of
+/// `options`.
 Demonstration load_demonstration(const std::filesystem::path& potential,
                                  const std::filesystem::path& reference,
                                  const EnvironmentOptions& options);

@@ -112,6 +112,13 @@ std::vector<Field> fields(TrainOptions& o) {
       {"environment.reference_by_slot", "in that share of the environments every episode does",
        &o.environment.reference_by_slot},
 
+      {"task.movement", "whose task it is", &o.environment.task.movement},
+      {"task.name", "reward, end and measure of an episode", &o.environment.task.name, -kInf, kInf,
+       task::task_names()},
+      {"task.speed_m_s", "that the task speed wants", &o.environment.task.speed_m_s, 0, 12},
+      {"task.effort", "what mean squared activation costs in the task speed, m/s",
+       &o.environment.task.effort, 0, 100},
+
       {"observation.robust",
        "instead of the 41 what can be trusted under the competition's rules: feet by joint angles, "
        "obstacles remembered",

@@ -21,6 +21,7 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options,
   runner.late_positions = options.late_positions;
   runner.raw_fibres = options.raw_fibres;
   runner.drop_contacts = options.drop_contacts;
+  runner.task = options.task;
   if (demonstration.potential) runner.foot = demonstration.potential->foot;
 
   return [model, runner, reference = demonstration.reference, options](int slot) {

@@ -154,7 +154,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     fs::remove_all(run / "replay");  // left by a kill before the first checkpoint
   if (ranks.first()) ranks.wait_for_all();
   Progress& progress = training.progress;
-  Journal journal(run, new_curve(), progress, ranks.first() ? messages : nullptr);
+  Journal journal(run, new_curve(options.environment.task.name), progress,
+                  ranks.first() ? messages : nullptr);
   ThreadPool pool(options.run.threads);
   Evaluator<Scalar> evaluator(options, potential, make_environment);
   TrainSummary summary;

@@ -22,6 +22,10 @@ environment::Observer make_observer(const TrainOptions& options, const Potential
   environment::ObservationOptions observation = options.observation;
   if (potential == nullptr || potential->index == PotentialIndex::nearest)
     observation.phase = false;  // nothing depends on it
+  else if (!potential->repeats)
+    observation.phase_as = environment::PhaseAs::passage;
+  else if (potential->mirrored_after == 0)
+    observation.phase_as = environment::PhaseAs::cycle;
   return environment::Observer(spec, observation, options.run.action_repeat * spec.step_s);
 }
 

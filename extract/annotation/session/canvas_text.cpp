@@ -1,5 +1,6 @@
 // Text of the window: what is shown, what a click will do, help.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -7,6 +8,7 @@
 #include "extract/annotation/asking.h"
 #include "extract/annotation/session/canvas.h"
 #include "extract/annotation/session/draw.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride::annotation {
 
@@ -62,6 +64,7 @@ void AnnotationCanvas::draw_head_line() {
   canvas_({0, 0, size.width, kHeadLine}).setTo(colour::kPanel);
   const Keypoints& k = s_.keypoints();
   std::string left = k.video;
+  if (k.movement != Keypoints().movement) left += "   " + k.movement;
   if (k.direction) left += fmt::format("   runs to the {}", kFacings[*k.direction]);
   if (k.slow_motion != 1) left += fmt::format("   slow motion {}x", k.slow_motion);
   if (k.treadmill.value_or(false)) left += "   treadmill";
@@ -112,6 +115,10 @@ std::string AnnotationCanvas::what_a_click_does() const {
   }
   if (!s_.asked_ && s_.options_.corrects)
     return "Drag a point to where it belongs   n: the least certain one   Space: next phase frame";
+  const std::vector<std::string>& moments = movement(s_.keypoints().movement).moments;
+  if (!s_.asked_ && !moments.empty())
+    return fmt::format("This frame is complete   Space: next frame to click; and those of {}",
+                       fmt::join(moments, ", "));
   if (!s_.asked_)
     return "This frame is complete   Space: next phase frame   drag a point to move it";
   const ClickedFrame* here = s_.clicked(s_.frame_);

@@ -6,6 +6,7 @@
 
 #include "extract/annotation/asking.h"
 #include "extract/annotation/points_of_video.h"
+#include "extract/skeleton/movement.h"
 #include "extract/tracking/leg_identity.h"
 #include "extract/tracking/time_check.h"
 #include "extract/tracking/track.h"
@@ -69,16 +70,18 @@ std::optional<Prediction> predict(const Keypoints& keypoints, video::FrameStore&
   try {
     const Trajectory clicks = tracking::marks_of(keypoints);
     Trajectory marks = clicks;
+    const bool repeats = movement(keypoints.movement).repeats;
     if (network) {
       marks = tracking::mixed(*network, {clicks, keypoints.slow_motion}).marks;
       for (TrajectoryFrame& frame : marks.frames)
         frame.time_s = times_s[static_cast<std::size_t>(frame.frame)];
-    } else {
+    } else if (repeats) {
       prediction.suspects = suspected_swaps(marks);
     }
     const tracking::Tracked tracked =
         tracking::track(marks, video::decode_clip(marks, source, options));
     prediction.trajectory = tracked.trajectory;
+    if (!repeats) return prediction;
     prediction.stride_frames =
         stride_frames(tracked, frames.info().rate_hz * keypoints.slow_motion);
     if (prediction.stride_frames > 0)

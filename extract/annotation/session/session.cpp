@@ -8,6 +8,7 @@
 #include "extract/annotation/checks.h"
 #include "extract/annotation/session/canvas.h"
 #include "extract/io/error.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride::annotation {
 namespace {
@@ -26,6 +27,7 @@ AnnotationSession::AnnotationSession(AnnotationJournal& journal, video::FrameSto
   view_.area = AnnotationCanvas::image_area(options.canvas_px);
   view_.fit();
   const Keypoints& k = keypoints();
+  if (!movement(k.movement).repeats) options_.head = true;  // it tells how the trunk leans
   if (!k.direction) {
     mode_ = Mode::ask_direction;
   } else if (!k.near_leg) {

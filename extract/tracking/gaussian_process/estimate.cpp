@@ -187,6 +187,7 @@ Observations middle_of(const Observations& observations, double origin_s) {
 }  // namespace
 
 GaitPrior with_period_of(const GaitPrior& prior, const Observations& all) {
+  if (!prior.legs.periodic) return prior;
   const Observations observations = middle_of(all, prior.origin_s);
   GaitPrior best = prior;
   double least = negative_log_likelihood(best, observations);

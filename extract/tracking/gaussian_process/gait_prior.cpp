@@ -111,11 +111,8 @@ int facing(const Observations& clicks) {
   return (forward > 0) - (forward < 0);
 }
 
-}  // namespace
-
-std::vector<GaitPrior> likely_gait_priors(const Observations& all_clicks,
-                                          const PeriodBounds& bounds) {
-  const Observations clicks = thinned(all_clicks);
+/// Where the joint fit starts: the pelvis alone by a nearly free spline.
+GaitPrior first_prior(const Observations& clicks) {
   GaitPrior prior;
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const auto& part : clicks)
@@ -124,11 +121,30 @@ std::vector<GaitPrior> likely_gait_priors(const Observations& all_clicks,
       last = std::max(last, o.time_s);
     }
   prior.origin_s = (first + last) / 2;
-
   prior.size_px = leg_size_px(clicks);
-
-  // First the pelvis alone by a nearly free spline, then jointly with the legs.
   prior.trunk.residual = 1;
+  return prior;
+}
+
+}  // namespace
+
+GaitPrior fit_passage_prior(const Observations& all_clicks) {
+  const Observations clicks = thinned(all_clicks);
+  GaitPrior prior = first_prior(clicks);
+  for (GaitKernel* kernel : {&prior.legs, &prior.trunk}) {
+    kernel->periodic = false;
+    kernel->period_s = 1;
+  }
+  prior.legs.residual = 1;
+  prior.legs.residual_strides = 0.25;
+  if (leg_data(prior, clicks).empty()) return prior;
+  return refined_together(prior, joint_data(prior, clicks), 3);
+}
+
+std::vector<GaitPrior> likely_gait_priors(const Observations& all_clicks,
+                                          const PeriodBounds& bounds) {
+  const Observations clicks = thinned(all_clicks);
+  const GaitPrior prior = first_prior(clicks);
   const auto legs = leg_data(prior, clicks);
   if (legs.empty()) return {prior};
   std::vector<GaitPrior> likely;

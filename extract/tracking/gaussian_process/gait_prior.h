@@ -15,9 +15,12 @@ GaitPrior fit_gait_prior(const Observations& clicks, const PeriodBounds& bounds 
 /// then the picture between them has to.
 std::vector<GaitPrior> likely_gait_priors(const Observations& clicks, const PeriodBounds& bounds);
 
+/// The kernels of a movement that does not repeat under which the clicks are most likely.
+GaitPrior fit_passage_prior(const Observations& clicks);
+
 /// The prior with the period, near its own, under which the observations are most likely, ways
 /// included: what the picture shows between clicks tells periods apart that the clicks cannot. Of a
-/// long clip its middle is used.
+/// long clip its middle is used. A prior without a period stays as it is.
 GaitPrior with_period_of(const GaitPrior& prior, const Observations& observations);
 
 /// Posterior mean of each part at each time: first the pelvis, then the others relative to it. NaN

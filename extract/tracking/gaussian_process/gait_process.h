@@ -35,7 +35,15 @@ struct Estimate {
 ///
 /// in units of the part's variance. Strides clicked at different phases fill each other's gaps;
 /// with no periodic motion the regression becomes a smoothing spline.
+///
+/// Of a movement that does not repeat (`periodic` false) it is the sum of
+///
+///     a motion shared by both legs                                            residual²
+///     a motion of one leg                                                     asymmetry²
+///
+/// of the correlation time residual_strides; a "stride" is then period_s, which is no unknown.
 struct GaitKernel {
+  bool periodic = true;
   double period_s = 0.75;     // of a stride, i.e. two steps
   double amplitude = 1;       // of the trunk, relative to the usual one; unused for legs
   double length_scale = 0.6;  // correlation length within the stride, as in exp(−2 sin²/ℓ²)

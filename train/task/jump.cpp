@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "train/task/tasks.h"
+
+namespace stride::task {
+namespace {
+
+constexpr double kBearing = 0.05;  // of the body's weight: a foot that bears more is on the ground
+constexpr double kShortestFlight_s = 0.05;
+constexpr double kStand_s = 0.5;        // after the landing
+constexpr double kFromStart_m = 0.5;    // a take-off farther ahead has a run-up
+constexpr double kFallHeight_m = 0.45;  // of the pelvis; who lands deep has it at 0.6
+
+/// What both jumps share: flight, landing, and standing after it.
+class Jump : public Task {
+ public:
+  explicit Jump(const osim::Model& model) : ankles_{model.body("talus_r"), model.body("talus_l")} {
+    for (const osim::Body& body : model.bodies) weight_N_ -= body.mass_kg * model.gravity_m_s2[1];
+  }
+
+  void start(const Moment& first) override {
+    airborne_s_ = standing_s_ = measure_m_ = 0;
+    landed_ = false;
+    left_ = place(first);
+    start_x_m_ = left_.foremost_ankle_m;
+  }
+
+  Outcome step(const Moment& moment) override {
+    Outcome outcome{moment.competition.ligament, End::none};
+    const std::array<bool, 2> down = feet_down(moment);
+    if (!down[0] && !down[1])
+      fly(moment, outcome);
+    else
+      touch(moment, down, outcome);
+    if (moment.state.q[simulation::kPelvisY] < kFallHeight_m) outcome = {outcome.reward, End::fall};
+    if (outcome.end == End::fall) measure_m_ = 0;
+    return outcome;
+  }
+
+  double measure_m() const override { return measure_m_; }
+
+ protected:
+  struct Place {
+    double foremost_ankle_m = 0, com_height_m = 0;
+  };
+
+  /// A flight begins there; what a step of it is worth; and the whole jump, m.
+  virtual void begin_flight() {}
+  virtual double gain_m(const Moment& moment) = 0;
+  virtual double size_m() const = 0;
+
+  const Place& take_off() const { return take_off_; }
+  double rearmost_landing_m() const { return std::min(landing_x_m_[0], landing_x_m_[1]); }
+
+ private:
+  double ankle_x(const Moment& moment, std::size_t side) const {
+    return moment.kinematics.bodies[static_cast<std::size_t>(ankles_[side])].position.x;
+  }
+
+  Place place(const Moment& moment) const {
+    return {std::max(ankle_x(moment, 0), ankle_x(moment, 1)), moment.kinematics.com.y};
+  }
+
+  std::array<bool, 2> feet_down(const Moment& moment) const {
+    const auto& force = moment.kinematics.ground_reaction_N;
+    return {force[0].y > kBearing * weight_N_, force[1].y > kBearing * weight_N_};
+  }
+
+  bool flies() const { return airborne_s_ > kShortestFlight_s - 1e-9; }
+  bool counts() const { return take_off_.foremost_ankle_m < start_x_m_ + kFromStart_m; }
+
+  void fly(const Moment& moment, Outcome& outcome) {
+    const bool flew = flies();
+    airborne_s_ += moment.step_s;
+    if (!flies()) return;
+    if (!flew) {  // another flight before it stood: the next landing counts
+      take_off_ = left_;
+      landed_ = false;
+      begin_flight();
+    }
+    if (counts()) outcome.reward += gain_m(moment);
+  }
+
+  void touch(const Moment& moment, const std::array<bool, 2>& down, Outcome& outcome) {
+    if (flies() && counts()) {
+      landed_ = true;
+      touched_ = {};
+      standing_s_ = 0;
+    }
+    airborne_s_ = 0;
+    left_ = place(moment);
+    if (!landed_) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!touched_[side]) landing_x_m_[side] = ankle_x(moment, side);
+      touched_[side] = touched_[side] || down[side];
+    }
+    standing_s_ += moment.step_s;
+    if (standing_s_ < kStand_s - 1e-9) return;
+    measure_m_ = std::max(0.0, size_m());
+    outcome.reward += measure_m_;
+    outcome.end = End::done;
+  }
+
+  std::array<int, 2> ankles_;  // indices into Model::bodies
+  double weight_N_ = 0;
+  double start_x_m_ = 0;
+  Place left_, take_off_;  // when a foot was last on the ground; when the flight began
+  double airborne_s_ = 0, standing_s_ = 0, measure_m_ = 0;
+  bool landed_ = false;
+  std::array<bool, 2> touched_{};  // since the landing
+  std::array<double, 2> landing_x_m_{};
+};
+
+class LongJump final : public Jump {
+ public:
+  using Jump::Jump;
+
+ private:
+  double gain_m(const Moment& moment) override { return moment.competition.forward; }
+  double size_m() const override { return rearmost_landing_m() - take_off().foremost_ankle_m; }
+};
+
+class HighJump final : public Jump {
+ public:
+  using Jump::Jump;
+
+ private:
+  void begin_flight() override { rise_m_ = 0; }
+  double gain_m(const Moment& moment) override {
+    const double before_m = rise_m_;
+    rise_m_ = std::max(rise_m_, moment.kinematics.com.y - take_off().com_height_m);
+    return rise_m_ - before_m;
+  }
+  double size_m() const override { return rise_m_; }
+
+  double rise_m_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Task> long_jump(const TaskOptions&, const osim::Model& model) {
+  return std::make_unique<LongJump>(model);
+}
+
+std::unique_ptr<Task> high_jump(const TaskOptions&, const osim::Model& model) {
+  return std::make_unique<HighJump>(model);
+}
+
+}  // namespace stride::task
