@@ -79,6 +79,7 @@ LabelledClip mixed(LabelledClip network, const LabelledClip& clicks) {
   if (!clicks.marks.frames.empty()) result.points = "mixed";
   result.slow_motion = clicks.slow_motion;
   if (clicks.marks.direction) result.marks.direction = clicks.marks.direction;
+  result.marks.movement = clicks.marks.movement;
   result.marks.treadmill = clicks.marks.treadmill;
   result.marks.floor_roll_rad = clicks.marks.floor_roll_rad;
   return result;

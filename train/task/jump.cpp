@@ -96,6 +96,7 @@ class Jump : public Task {
       if (!touched_[side]) landing_x_m_[side] = ankle_x(moment, side);
       touched_[side] = touched_[side] || down[side];
     }
+    if (!touched_[0] || !touched_[1]) return;
     standing_s_ += moment.step_s;
     if (standing_s_ < kStand_s - 1e-9) return;
     measure_m_ = std::max(0.0, size_m());

@@ -20,8 +20,8 @@ std::unique_ptr<Task> speed(const TaskOptions& options, const osim::Model& model
 std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model);
 
 /// A jump from standing: both feet leave the ground within half a metre of the start, and after
-/// the landing the runner does not fall for 0.5 s. Reward in flight: the pelvis' way forward; at
-/// the end the length: from the foremost ankle at take-off to where the rearmost ankle touched
+/// both have landed the runner does not fall for 0.5 s. Reward in flight: the pelvis' way forward;
+/// at the end the length: from the foremost ankle at take-off to where the rearmost ankle touched
 /// down. Measure: the length, 0 without that end.
 std::unique_ptr<Task> long_jump(const TaskOptions& options, const osim::Model& model);
 

@@ -106,6 +106,19 @@ TEST(Task, OfALongJumpMeasuresFromTheForemostToTheRearmostAnkle) {
   EXPECT_NEAR(puppet.task_->measure_m(), 0.9, 1e-9);
 }
 
+TEST(Task, OfAJumpIsNotDoneOnOneFoot) {
+  Puppet puppet("long-jump");
+  puppet.stand(false, false);
+  puppet.advance(10, 0.03);
+  puppet.put_ankles(0.2, 0.9);
+  puppet.stand(true, false);
+  EXPECT_EQ(puppet.advance(100), End::none);
+  puppet.put_ankles(0.2, 0.4);
+  puppet.stand(true, true);
+  EXPECT_EQ(puppet.advance(60), End::done);
+  EXPECT_NEAR(puppet.task_->measure_m(), 0.2, 1e-9);
+}
+
 TEST(Task, OfAJumpIsNothingWithoutALandingThatIsStood) {
   Puppet puppet("long-jump");
   puppet.stand(false, false);
