@@ -269,11 +269,12 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   check_posture(marks);
   check_layout(marks);
   const bool labels = are_labels(marks);
-  if (!labels) {
+  const bool from_file = !detections.file.empty();  // a network numbers frames as the video does
+  if (!labels && from_file) {
     renumber_after_dropouts(file, static_cast<int>(times_s.size()), marks);
     check_cover(static_cast<int>(times_s.size()), marks);
-    check_motion(marks, glimpses, info);
   }
+  if (!labels) check_motion(marks, glimpses, info);
   for (TrajectoryFrame& frame : marks.frames)
     frame.time_s = times_s[static_cast<std::size_t>(frame.frame)];
   marks.video_sha256 = hash;

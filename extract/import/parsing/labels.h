@@ -37,7 +37,8 @@ class LabelMap {
 
 /// Names of the points of the fixed layouts of 15 (OpenPose MPI), 17 (COCO), 18 (OpenPose COCO),
 /// 25 (OpenPose BODY_25), 26 and 136 (HALPE), 33 (MediaPipe) and 133 (COCO-WholeBody) points; empty
-/// otherwise. A point that we do not use has an empty name. Source: the projects' own keypoint lists.
+/// otherwise. A point that we do not use has an empty name. Source: the projects' own keypoint
+/// lists.
 std::vector<std::string> layout_of(std::size_t points);
 
 }  // namespace stride::imports
