@@ -50,9 +50,14 @@ class Jump : public Task {
   virtual void begin_flight() {}
   virtual double gain_m(const Moment& moment) = 0;
   virtual double size_m() const = 0;
+  /// Whether the feet that have touched the ground since the landing are those to stand on.
+  virtual bool lands_on(const std::array<bool, 2>& touched) const {
+    return touched[0] && touched[1];
+  }
 
   const Place& take_off() const { return take_off_; }
   double rearmost_landing_m() const { return std::min(landing_x_m_[0], landing_x_m_[1]); }
+  double right_landing_m() const { return landing_x_m_[0]; }
 
  private:
   double ankle_x(const Moment& moment, std::size_t side) const {
@@ -96,7 +101,7 @@ class Jump : public Task {
       if (!touched_[side]) landing_x_m_[side] = ankle_x(moment, side);
       touched_[side] = touched_[side] || down[side];
     }
-    if (!touched_[0] || !touched_[1]) return;
+    if (!lands_on(touched_)) return;
     standing_s_ += moment.step_s;
     if (standing_s_ < kStand_s - 1e-9) return;
     measure_m_ = std::max(0.0, size_m());
@@ -123,6 +128,18 @@ class LongJump final : public Jump {
   double size_m() const override { return rearmost_landing_m() - take_off().foremost_ankle_m; }
 };
 
+class Hop final : public Jump {
+ public:
+  using Jump::Jump;
+
+ private:
+  double gain_m(const Moment& moment) override { return moment.competition.forward; }
+  double size_m() const override { return right_landing_m() - take_off().foremost_ankle_m; }
+  bool lands_on(const std::array<bool, 2>& touched) const override {
+    return touched[0] && !touched[1];
+  }
+};
+
 class HighJump final : public Jump {
  public:
   using Jump::Jump;
@@ -143,6 +160,10 @@ class HighJump final : public Jump {
 
 std::unique_ptr<Task> long_jump(const TaskOptions&, const osim::Model& model) {
   return std::make_unique<LongJump>(model);
+}
+
+std::unique_ptr<Task> hop(const TaskOptions&, const osim::Model& model) {
+  return std::make_unique<Hop>(model);
 }
 
 std::unique_ptr<Task> high_jump(const TaskOptions&, const osim::Model& model) {

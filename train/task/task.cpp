@@ -22,6 +22,7 @@ constexpr std::array kTasks{
     Row{"walk", "distance in 10 s on foot, less what was too fast", 10, &walk},
     Row{"long-jump", "length of the jump", 3, &long_jump},
     Row{"high-jump", "height of the flight", 3, &high_jump},
+    Row{"hop", "length of the hop", 3, &hop},
 };
 
 const Row& row(std::string_view name) {

@@ -25,6 +25,10 @@ std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model)
 /// down. Measure: the length, 0 without that end.
 std::unique_ptr<Task> long_jump(const TaskOptions& options, const osim::Model& model);
 
+/// A jump onto the right foot: after the landing the left one does not touch the ground for the 0.5
+/// s in which the runner does not fall. Reward as of the long jump; length to the right ankle.
+std::unique_ptr<Task> hop(const TaskOptions& options, const osim::Model& model);
+
 /// The same upward: the rise of the centre of mass above its height at take-off.
 std::unique_ptr<Task> high_jump(const TaskOptions& options, const osim::Model& model);
 

@@ -151,6 +151,16 @@ TEST(Task, OfAJumpCountsNeitherStepsNorARunUp) {
   EXPECT_EQ(runner.task_->measure_m(), 0);
 }
 
+TEST(Task, OfAHopStandsOnTheRightFootAlone) {
+  Puppet puppet("hop");
+  puppet.stand(false, false);
+  puppet.advance(20, 0.03);
+  puppet.put_ankles(0.6, 0.9);
+  puppet.stand(true, false);
+  EXPECT_EQ(puppet.advance(60), End::done);
+  EXPECT_NEAR(puppet.task_->measure_m(), 0.6, 1e-9);
+}
+
 TEST(Task, OfAJumpUpIsTheRiseOfTheCentreOfMass) {
   Puppet puppet("high-jump");
   puppet.stand(false, false);
