@@ -47,8 +47,10 @@ void move_along_limb(BodyPart right, const Trajectory& clicks, Trajectory& point
       if (!to_px || !clicked[joint].present()) continue;
       const Vector2d offset = to_px->inverse() * (clicked[joint].p_px - (*detected)[joint].p_px);
       if (offset.norm() > 0.5) continue;  // another leg, or nonsense
-      sum += offset;
-      ++count;
+      // What the detector was unsure of is wrong by itself, and says little of the other frames.
+      const double sure = std::min(1.0, (*detected)[joint].confidence / kPredictedConfidence);
+      sum += sure * sure * offset;
+      count += sure * sure;
     }
   }
   for (TrajectoryFrame& frame : points.frames)
