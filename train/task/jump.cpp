@@ -11,6 +11,7 @@ constexpr double kBearing = 0.05;  // of the body's weight: a foot that bears mo
 constexpr double kShortestFlight_s = 0.05;
 constexpr double kStand_s = 0.5;        // after the landing
 constexpr double kFromStart_m = 0.5;    // a take-off farther ahead has a run-up
+constexpr double kFallTilt_rad = 1.2;   // of the pelvis either way; a deep crouch has 0.6
 constexpr double kFallHeight_m = 0.45;  // of the pelvis; who lands deep has it at 0.6
 
 /// What both jumps share: flight, landing, and standing after it.
@@ -34,7 +35,10 @@ class Jump : public Task {
       fly(moment, outcome);
     else
       touch(moment, down, outcome);
-    if (moment.state.q[simulation::kPelvisY] < kFallHeight_m) outcome = {outcome.reward, End::fall};
+    const auto& q = moment.state.q;
+    if (q[simulation::kPelvisY] < kFallHeight_m ||
+        std::abs(q[simulation::kPelvisTilt]) > kFallTilt_rad)
+      outcome = {outcome.reward, End::fall};
     if (outcome.end == End::fall) measure_m_ = 0;
     return outcome;
   }

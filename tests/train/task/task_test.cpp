@@ -131,6 +131,18 @@ TEST(Task, OfAJumpIsNothingWithoutALandingThatIsStood) {
   EXPECT_EQ(puppet.task_->measure_m(), 0);
 }
 
+TEST(Task, OfAJumpIsNothingWhereTheRunnerTipsOver) {
+  Puppet puppet("long-jump");
+  puppet.stand(false, false);
+  puppet.advance(30, 0.03);
+  puppet.put_ankles(1, 1);
+  puppet.stand(true, true);
+  puppet.advance(20);
+  puppet.state_.q[simulation::kPelvisTilt] = 1.3;
+  EXPECT_EQ(puppet.advance(1), End::fall);
+  EXPECT_EQ(puppet.task_->measure_m(), 0);
+}
+
 TEST(Task, OfAJumpCountsNeitherStepsNorARunUp) {
   Puppet walker("long-jump");
   for (int step = 1; step <= 3; ++step) {  // a foot is always on the ground
