@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -166,6 +167,8 @@ std::string verdict_row(const fs::path& file) {
   if (jobs.empty()) return row + " 0 | | | not run yet |\n";
   const std::vector<Arm> arms = arms_of(jobs, experiment);
   const Verdict verdict = verdict_on(claim, results_of(arms, experiment.decisions));
+  if (!std::isfinite(verdict.ratio.ratio))
+    return row + fmt::format(" {} | too few seeds | | {} |\n", verdict.pairs, verdict.word);
   return row + fmt::format(" {} | {} | {:.2f} … {:.2f} | {} |\n", verdict.pairs,
                            ratio_text(verdict.ratio), verdict.ratio.bootstrap_low,
                            verdict.ratio.bootstrap_high, verdict.word);

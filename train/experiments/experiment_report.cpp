@@ -108,6 +108,9 @@ std::string gait_table(const std::vector<ArmResult>& results) {
 std::string claim_text(const ExperimentFile& experiment, const std::vector<ArmResult>& results) {
   const ExperimentClaim& claim = experiment.claim;
   const Verdict verdict = verdict_on(claim, results);
+  if (!std::isfinite(verdict.ratio.ratio))
+    return fmt::format("Claim: {}.\n\n**{}**: no interval; the pairs of seeds are too few: {}.\n\n",
+                       claim.text, verdict.word, verdict.pairs);
   return fmt::format(
       "Claim: {}.\n\n**{}**: {} over {} after {:.0f} k decisions {} over {} pairs of seeds, "
       "bootstrap {:.2f} … {:.2f}; a ratio of {:.2f} would have been told from 1.\n\n",

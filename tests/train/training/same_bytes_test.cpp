@@ -50,7 +50,7 @@ TEST_F(SameBytes, OfDdpg) {
 TEST_F(SameBytes, OfPpo) {
   EXPECT_EQ(curve_hash("ppo", {"run.decisions=12000", "run.evaluate_every=4000", "run.threads=2",
                                "shaping.scale=0.004"}),
-            "fdefdffca9de9981e4a3cfe5b0d868cb4bb914eb5a7d16829816a2aa97858642");
+            "d5f22f22f35f50f1ff4fbf8879a89d66adfc3c7185a65b0e9cc53f9f7794d910");
 }
 
 }  // namespace
