@@ -1,5 +1,6 @@
 #include "extract/annotation/points_on_video.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "extract/io/error.h"
@@ -111,6 +112,27 @@ void renumber_after_dropouts(const fs::path& video, int frames, Trajectory& mark
     for (const LeftOutFrames& each : left_out)
       if (number >= each.frame) frame.frame += each.count;
   }
+}
+
+/// Points that all lie in one place are no body. (Normalised coordinates are told elsewhere.)
+void check_body(const std::string& file, const Trajectory& marks) {
+  constexpr double kLeast_px = 4, kNormalised = 2;
+  constexpr int kLeastPoints = 3;  // with fewer of a frame they say nothing of a body
+  int most_points = 0;
+  double largest_px = 0, farthest = 0;
+  for (const TrajectoryFrame& frame : marks.frames) {
+    Eigen::AlignedBox2d box;
+    int points = 0;
+    for (const Point& point : frame.points)
+      if (point.present()) box.extend(point.p_px), ++points;
+    most_points = std::max(most_points, points);
+    if (points == 0) continue;
+    largest_px = std::max(largest_px, box.diagonal().norm());
+    farthest = std::max(farthest, box.max().maxCoeff());
+  }
+  require(most_points < kLeastPoints || largest_px > kLeast_px || farthest <= kNormalised,
+          "{}: expected a person: the points of each frame lie within {:.1f} px of one another",
+          file, largest_px);
 }
 
 /// Coordinates that are no pixels of this picture; a few points outside it are left out.
@@ -252,6 +274,7 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
           detections.file, detections.video);
   LabelledClip labelled{marks_of(detections), options.slow_motion};
   Trajectory& marks = labelled.marks;
+  marks.video = file.filename().string();
 
   video::Video decoder(file, options.slow_motion);
   Glimpses glimpses(marks);
@@ -265,6 +288,7 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   check_y_up(options.import, info, marks);
   renumber(detections, options.import, static_cast<int>(times_s.size()), marks);
   check_places(info, marks);
+  check_body(detections.file, marks);
   check_aspect(options.import, info, marks);
   check_posture(marks);
   check_layout(marks);

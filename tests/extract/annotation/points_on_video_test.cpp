@@ -161,5 +161,14 @@ TEST(PointsOnVideo, OfAnotherVideoAreRefused) {
   EXPECT_ERROR(told(others), "belongs to another video (game.mp4");
 }
 
+TEST(PointsOnVideo, ThatAllLieInOnePlaceAreNobody) {
+  imports::Detections spot = truth();
+  spot.file = "spot.csv";
+  for (imports::ImportedFrame& frame : spot.frames)
+    for (Point& point : frame.points) point.p_px = {320, 180};
+  EXPECT_ERROR(told(spot),
+               "spot.csv: expected a person: the points of each frame lie within 0.0 px");
+}
+
 }  // namespace
 }  // namespace stride
