@@ -50,9 +50,14 @@ struct Told {
 Told told(const imports::Detections& detections,
           const tracking::PointsOnVideoOptions& options = {}) {
   testing::internal::CaptureStderr();
-  Told result{tracking::points_on(kVideo, detections, options), {}};
-  result.warnings = testing::internal::GetCapturedStderr();
-  return result;
+  try {
+    Told result{tracking::points_on(kVideo, detections, options), {}};
+    result.warnings = testing::internal::GetCapturedStderr();
+    return result;
+  } catch (const Error&) {
+    testing::internal::GetCapturedStderr();
+    throw;
+  }
 }
 
 double farthest_px(const Trajectory& marks) {
