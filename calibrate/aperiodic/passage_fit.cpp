@@ -11,6 +11,7 @@
 #include "calibrate/aperiodic/residuals.h"
 #include "calibrate/aperiodic/start.h"
 #include "calibrate/fit/solver/problem.h"
+#include "calibrate/fit/solver/residuals.h"
 #include "extract/io/statistics.h"
 
 namespace stride::aperiodic {
@@ -44,7 +45,8 @@ void add_marks(const Problem& problem, PassageFit& fit, fit::Loss loss, ceres::P
     double* pelvis = p.pelvis_px[static_cast<std::size_t>(mark.frame)].data();
     const double own = sigma / std::sqrt(mark.weight);
     if (mark.part == BodyPart::pelvis) {
-      ceres.AddResidualBlock(automatic<2, 2>(PelvisResidual{mark.z_px, own}), robust(), pelvis);
+      ceres.AddResidualBlock(automatic<2, 2>(fit::PelvisResidual{mark.z_px, own}), robust(),
+                             pelvis);
       continue;
     }
     const SplinePlace at = p.place(mark.u_s);

@@ -2,6 +2,7 @@
 
 // The residuals of the fit of a passage, each with its formula. Blocks: limbs, four control points
 // of the angles, the pelvis of a frame; px of an image in which the runner faces right and y is up.
+// The marked pelvis is fit::PelvisResidual.
 
 #include "calibrate/aperiodic/passage.h"
 
@@ -25,19 +26,6 @@ struct PointResidual {
     const Vector2<T> q = about_pelvis<T>(part, directions, limbs, angles);
     r[0] = (pelvis_px[0] + q.x() - z_px.x()) / sigma_px;
     r[1] = (pelvis_px[1] + q.y() - z_px.y()) / sigma_px;
-    return true;
-  }
-};
-
-/// The marked pelvis itself: r = (p − z) / σ.
-struct PelvisResidual {
-  Eigen::Vector2d z_px;
-  double sigma_px;
-
-  template <typename T>
-  bool operator()(const T* pelvis_px, T* r) const {
-    r[0] = (pelvis_px[0] - z_px.x()) / sigma_px;
-    r[1] = (pelvis_px[1] - z_px.y()) / sigma_px;
     return true;
   }
 };

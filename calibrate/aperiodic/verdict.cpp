@@ -69,16 +69,7 @@ void judge_passage(const Trajectory& trajectory, const fit::Marks& marks, const 
     return;
   }
   judge_picture(trajectory, verdict);
-  const double relative = fit.sigma_px / fit.passage.leg_px();
-  if (relative > 0.1)
-    verdict.refuse(fmt::format(
-        "the marks miss the fitted runner by {:.0f} % of a leg: are they on the right joints?",
-        100 * relative));
-  else if (relative > 0.05)
-    verdict.alarm(
-        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
-  if (fit.backward)
-    verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
+  gait::judge_misses(fit.sigma_px / fit.passage.leg_px(), fit.backward, verdict);
   if (fit.outlier_fraction > 0.12)
     verdict.alarm(
         fmt::format("{:.0f} % of the marks fit no movement: swapped legs, another "

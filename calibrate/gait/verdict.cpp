@@ -318,6 +318,19 @@ Verdict judge_marks(const Trajectory& trajectory) {
   return verdict;
 }
 
+void judge_misses(double relative, bool backward, Verdict& verdict) {
+  if (relative > 0.1)
+    verdict.refuse(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg: are they on "
+                    "the right joints?",
+                    100 * relative));
+  else if (relative > 0.05)
+    verdict.alarm(
+        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
+  if (backward)
+    verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
+}
+
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
                const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
   if (!fit.ok) {
@@ -332,16 +345,7 @@ void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
         fmt::format("no stride repeats: the best period explains {:.0f} % of how the legs "
                     "move; is it one runner, with the legs told apart? A jump is --movement jump",
                     100 * std::max(fit.explained, 0.0)));
-  if (relative > 0.1)
-    verdict.refuse(
-        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg: are they on "
-                    "the right joints?",
-                    100 * relative));
-  else if (relative > 0.05)
-    verdict.alarm(
-        fmt::format("the marks miss the fitted runner by {:.0f} % of a leg", 100 * relative));
-  if (fit.backward)
-    verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
+  judge_misses(relative, fit.backward, verdict);
   const std::string outliers = fmt::format(
       "{:.0f} % of the marks fit no stride, most of them {}: swapped legs, another "
       "person, or lost tracks",

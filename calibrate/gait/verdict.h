@@ -30,6 +30,10 @@ struct Verdict {
 /// the camera.
 Verdict judge_marks(const Trajectory& trajectory);
 
+/// Checks of any fit: the robust sd of its marks in legs, and whether its knees bend the wrong way.
+/// Adds to `verdict`.
+void judge_misses(double relative, bool backward, Verdict& verdict);
+
 /// Checks of the fit; adds to `verdict`.
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
                const fit::StrideFit& fit, const Gait& gait, Verdict& verdict);
