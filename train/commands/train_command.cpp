@@ -9,6 +9,7 @@
 #include "extract/skeleton/movement.h"
 #include "train/commands/interrupt.h"
 #include "train/ppo/train_run.h"
+#include "train/training/checkpoint.h"
 #include "train/training/runner_factory.h"
 
 namespace stride {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// The command line's options.
 struct Request {
-  std::string potential, reference, movement, out, resume, preset, config;
+  std::string potential, reference, movement, out, resume, preset, config, from;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed, decisions;
   bool baseline = false;
@@ -29,6 +30,20 @@ void apply_overrides(const Request& request, training::TrainOptions& options) {
     training::set_option(assignment, options);
   if (request.seed) options.run.seed = *request.seed;
   if (request.decisions) options.run.decisions = *request.decisions;
+}
+
+/// Throws Error if the networks of the run in `from` do not fit a run with these options.
+void require_fit(const training::TrainOptions& options, const fs::path& from) {
+  require(options.run.learner == "ppo", "--from: only ppo can begin with another run's networks");
+  const training::TrainOptions other = training::load_run_options(from);
+  require(other.run.learner == "ppo", "--from {}: is a run of {}, one of ppo is needed",
+          from.string(), other.run.learner);
+  require(other.observation == options.observation && other.ppo.mirror == options.ppo.mirror,
+          "--from {}: its agent observes otherwise: give both runs the same settings of "
+          "[observation] and ppo.mirror",
+          from.string());
+  require(fs::exists(training::checkpoint_file(from)), "--from {}: has no checkpoint yet",
+          from.string());
 }
 
 /// A new run: the preset, the movement of the potential, then the config file, then the command
@@ -53,7 +68,14 @@ fs::path begin(const Request& request) {
     fmt::print(stderr, "{}: {}\n", request.potential, demonstration.potential->verdict);
   if (!options.environment.model.empty())
     options.environment.model = fs::absolute(options.environment.model).string();
+  if (!request.from.empty()) {
+    require_fit(options, request.from);
+    options.ppo.start = "start.safetensors";
+  }
   training::make_run_folder(options, demonstration, request.out);
+  if (!request.from.empty())
+    fs::copy_file(training::checkpoint_file(request.from),
+                  fs::path(request.out) / options.ppo.start);
   return request.out;
 }
 
@@ -61,7 +83,7 @@ fs::path begin(const Request& request) {
 fs::path resume(const Request& request) {
   require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
               request.movement.empty() && !request.baseline && request.config.empty() &&
-              request.assignments.empty() && !request.seed,
+              request.from.empty() && request.assignments.empty() && !request.seed,
           "--resume {}: a run keeps its configuration; only --decisions may be given with it",
           request.resume);
   const fs::path run = request.resume;
@@ -117,6 +139,8 @@ void add_train_command(CLI::App& app) {
       ->default_val("stride");
   command->add_option("--config", request->config, "TOML file of settings, over the preset");
   command->add_option("--set", request->assignments, "One setting, as agent.gamma=0.99");
+  command->add_option("--from", request->from,
+                      "Run of ppo whose networks the new run begins with: learning by stages");
   command->add_option("--resume", request->resume, "Continue the run in this folder");
   command->callback([request] { train_as_requested(*request); });
 }

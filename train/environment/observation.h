@@ -19,6 +19,8 @@ struct ObservationOptions {
   bool activations = true;  // of the runner's own muscles
   bool phase = true;        // sine and cosine of the phase of the stride
   PhaseAs phase_as = PhaseAs::phase_of_turns;
+
+  bool operator==(const ObservationOptions&) const = default;
 };
 
 /// The agent's view of the environment: 41 → 112 features as in the paper (Sec. "State

@@ -16,6 +16,7 @@ simulation::EngineOptions engine_options(const RunnerOptions& options) {
   engine.accuracy = options.accuracy;
   engine = competition::under(options.rules, engine);
   engine.drop_contacts &= options.drop_contacts;
+  engine.drop_share = options.drop_share;
   return engine;
 }
 

@@ -36,6 +36,7 @@ struct RunnerOptions {
   bool late_positions = true;
   /// Under nips2017, false only to find out what they do: O1 and O2 of competition::Rules.
   bool raw_fibres = true, drop_contacts = true;
+  double drop_share = 1;  // of the force of a contact after one that pulls
 };
 
 /// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation as in

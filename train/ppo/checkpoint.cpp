@@ -85,6 +85,32 @@ void visit_sums(training::Progress& progress, Sums& sums, const Visit& visit) {
   visit("sums.explained_variance", sums.explained_variance);
 }
 
+network::Tensors load_tensors_of_ppo(const fs::path& file) {
+  network::Tensors tensors = network::load_tensors(file);
+  require(tensors.meta("format") == "stride ppo checkpoint" && tensors.meta("version") == "1",
+          "{}: is a {} of version {}, a stride ppo checkpoint of version 1 is needed", tensors.file,
+          tensors.meta("format"), tensors.meta("version"));
+  return tensors;
+}
+
+/// Networks, what steers them, and the normaliser.
+void get_learner(const network::Tensors& tensors, Training& training) {
+  Learner& learner = training.learner;
+  get(tensors, "actor", learner.actor(), learner.actor_adam());
+  get(tensors, "critic", learner.critic().net, learner.critic().adam);
+  Eigen::VectorXd scale(3);
+  tensors.get("critic.scale", scale);
+  learner.critic().shift = scale[0];
+  learner.critic().scale = scale[1];
+  learner.critic().batches = scale[2];
+  learner.rate() = number(tensors, "actor.rate");
+  network::Normaliser::State normaliser = training.normaliser.state();
+  normaliser.count = static_cast<double>(tensors.integer("normaliser.count"));
+  tensors.get("normaliser.mean", normaliser.mean);
+  tensors.get("normaliser.squares", normaliser.squares);
+  training.normaliser.set_state(normaliser);
+}
+
 }  // namespace
 
 void save_checkpoint(const Training& training, const fs::path& run) {
@@ -111,31 +137,19 @@ void save_checkpoint(const Training& training, const fs::path& run) {
 }
 
 void load_checkpoint(Training& training, const fs::path& run) {
-  const network::Tensors tensors = network::load_tensors(training::checkpoint_file(run));
-  require(tensors.meta("format") == "stride ppo checkpoint" && tensors.meta("version") == "1",
-          "{}: is a {} of version {}, a stride ppo checkpoint of version 1 is needed", tensors.file,
-          tensors.meta("format"), tensors.meta("version"));
+  const network::Tensors tensors = load_tensors_of_ppo(training::checkpoint_file(run));
   visit_counters(training.progress,
                  [&](const char* name, std::int64_t& value) { value = tensors.integer(name); });
   visit_sums(training.progress, training.sums,
              [&](const char* name, double& value) { value = number(tensors, name); });
   training.random = training::random_from(tensors.bytes("random"), tensors.file);
-  Learner& learner = training.learner;
-  get(tensors, "actor", learner.actor(), learner.actor_adam());
-  get(tensors, "critic", learner.critic().net, learner.critic().adam);
-  Eigen::VectorXd scale(3);
-  tensors.get("critic.scale", scale);
-  learner.critic().shift = scale[0];
-  learner.critic().scale = scale[1];
-  learner.critic().batches = scale[2];
-  learner.rate() = number(tensors, "actor.rate");
-  network::Normaliser::State normaliser = training.normaliser.state();
-  normaliser.count = static_cast<double>(tensors.integer("normaliser.count"));
-  tensors.get("normaliser.mean", normaliser.mean);
-  tensors.get("normaliser.squares", normaliser.squares);
-  training.normaliser.set_state(normaliser);
+  get_learner(tensors, training);
   for (std::size_t i = 0; i < training.slots.size(); ++i)
     training.slots[i].restore(get(tensors, fmt::format("slot{}", i), training.action_names.size()));
+}
+
+void begin_with(Training& training, const fs::path& checkpoint) {
+  get_learner(load_tensors_of_ppo(checkpoint), training);
 }
 
 }  // namespace stride::ppo

@@ -111,7 +111,10 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
                                   parallel::Ranks& ranks) {
   Training training = start_training(options, potential, make_environment);
   if (!ranks.first()) ranks.wait_for_all();  // until the first has tidied up the folder
-  if (fs::exists(training::checkpoint_file(run))) load_checkpoint(training, run);
+  if (fs::exists(training::checkpoint_file(run)))
+    load_checkpoint(training, run);
+  else if (!options.ppo.start.empty())
+    begin_with(training, run / options.ppo.start);
   if (ranks.first()) ranks.wait_for_all();
   training::Progress& progress = training.progress;
   training::Journal journal(run, new_ppo_curve(options.environment.task.name), progress,

@@ -48,5 +48,8 @@ void collect(const training::TrainOptions& options, Training& training,
 void save_checkpoint(const Training& training, const std::filesystem::path& run);
 /// Throws Error naming the file and what is wrong with it.
 void load_checkpoint(Training& training, const std::filesystem::path& run);
+/// Of a checkpoint of another run the policy, the critic, what steers them, and the normaliser. All
+/// else is as at the beginning of a run. Throws Error likewise.
+void begin_with(Training& training, const std::filesystem::path& checkpoint);
 
 }  // namespace stride::ppo

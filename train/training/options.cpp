@@ -102,6 +102,8 @@ std::vector<Field> fields(TrainOptions& o) {
       {"environment.drop_contacts",
        "under nips2017: a contact that pulls drops the next one's force",
        &o.environment.drop_contacts},
+      {"environment.drop_share", "of that force, in training: less than 1 to learn it by degrees",
+       &o.environment.drop_share, 0, 1},
       {"environment.accuracy", "of the integration", &o.environment.accuracy, 1e-12, 1},
       {"environment.training_accuracy", "of the integration in training; 0: the same",
        &o.environment.training_accuracy, 0, 0.1},
@@ -216,6 +218,8 @@ std::vector<Field> fields(TrainOptions& o) {
       {"ppo.final_alive_per_s", "after alive_decisions", &o.ppo.final_alive_per_s},
       {"ppo.alive_decisions", "over which it falls, linearly", &o.ppo.alive_decisions, 1},
       {"ppo.mirror", "every state is seen with the right leg ahead", &o.ppo.mirror},
+      {"ppo.start", "file in the run folder with the networks of another run; empty: random ones",
+       &o.ppo.start},
   };
 }
 

@@ -40,6 +40,7 @@ struct EnvironmentOptions {
   bool late_positions = true;            // under nips2017, as OpenSim observes bodies
   bool raw_fibres = true;                // likewise: at the start not in equilibrium
   bool drop_contacts = true;             // likewise: one that pulls drops the next
+  double drop_share = 1;                 // of its force, in training
   double accuracy = 1e-3;                // of the integration
   double training_accuracy = 0;          // of training episodes; 0: the same
   std::string reference;                 // calibrated run, as it was copied into the run folder
@@ -89,6 +90,7 @@ struct PpoOptions {
   double alive_per_s = 2, final_alive_per_s = 0.3;  // reward of not having fallen
   double alive_decisions = 600'000;                 // over which it falls
   bool mirror = true;                               // every state is seen with the right leg ahead
+  std::string start;  // checkpoint whose networks the run begins with, as copied into its folder
 };
 
 /// Everything a run depends on. Defaults are those of the preset `stride`.

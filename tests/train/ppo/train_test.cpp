@@ -6,6 +6,7 @@
 
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/throws.h"
 #include "tests/train/support/killed_at_random_moments.h"
 #include "tests/train/support/point_mass.h"
 #include "train/ppo/slot.h"
@@ -107,6 +108,29 @@ TEST(PpoTrain, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   EXPECT_EQ(read_file(folder / "b" / "curve.csv"), uninterrupted);
   EXPECT_EQ(read_file(folder / "b" / "agent.safetensors"),
             read_file(folder / "a" / "agent.safetensors"));
+}
+
+TEST(PpoTrain, BeginsWithTheNetworksOfAnotherRun) {
+  TemporaryFolder folder;
+  training::TrainOptions options = small_run();
+  trained(options, {}, folder / "first");
+  options.run.seed = 7;
+  options.ppo.start = "start.safetensors";
+  training::make_run_folder(options, {}, folder / "second");
+  fs::copy_file(folder / "first" / "checkpoint.safetensors", folder / "second" / options.ppo.start);
+  const std::atomic<bool> stop = false;
+  ppo::train(folder / "second", point_mass, stop, nullptr);
+  const Table first = load_table(folder / "first" / "curve.csv", "curve", 1),
+              second = load_table(folder / "second" / "curve.csv", "curve", 1);
+  const auto reward = first.column("evaluation_reward"), decisions = first.column("decisions");
+  EXPECT_EQ(second.rows.front()[reward], first.rows.back()[reward]);
+  EXPECT_NE(second.rows.back()[reward], first.rows.back()[reward]);
+  EXPECT_EQ(second.rows.front()[decisions], 0);
+
+  options.ppo.actor_hidden = {17};
+  training::make_run_folder(options, {}, folder / "other");
+  fs::copy_file(folder / "first" / "checkpoint.safetensors", folder / "other" / options.ppo.start);
+  EXPECT_ERROR(ppo::train(folder / "other", point_mass, stop, nullptr), "start.safetensors");
 }
 
 /// Σ γᵗ F over whole episodes with repeated actions: −Φ(s₀) where it fell, γᵀ Φ(s_T) − Φ(s₀) at the

@@ -75,6 +75,7 @@ struct EngineOptions {
   /// true: a contact force that would be ≤ 0 drops the remaining contacts of its force element, as
   /// in Simbody's HuntCrossleyForce; false: every contact counts.
   bool drop_contacts = false;
+  double drop_share = 1;  // of the force of those, in [0, 1]; less than 1 only to learn by degrees
   /// true: obstacles collide as spheres of 0.1 m with stiffness 1e7, whatever their radius.
   bool nominal_obstacles = false;
   /// Largest number of evaluations in one advance(); beyond it the integration has failed.

@@ -95,6 +95,7 @@ simulation::PlanarVector RunnerForces::add_foot(const PlacedRunner& runner, cons
   if (options_.drop_contacts && !first_sphere_is_swept_first(centre(sphere(0)), sphere(0).radius_m,
                                                              centre(sphere(1)), sphere(1).radius_m))
     first = 1;
+  double kept = 1;  // share of the force of the contacts after one that pulls
   for (std::size_t n = first; n < first + foot.spheres.size(); ++n) {
     const osim::ContactSphere& obstacle_contact = sphere(n);
     osim::Vec3 point = centre(obstacle_contact);
@@ -102,9 +103,12 @@ simulation::PlanarVector RunnerForces::add_foot(const PlacedRunner& runner, cons
     if (depth <= 0) continue;
     point[1] = foot.floor_m - depth / 2;
     const simulation::PlanarVector velocity = runner.velocity(obstacle_contact.body, point);
-    const double normal = normal_force(foot.law, obstacle_contact.radius_m, depth, -velocity.y);
-    if (normal <= 0 && options_.drop_contacts) break;
-    if (normal <= 0) continue;
+    const double normal =
+        kept * normal_force(foot.law, obstacle_contact.radius_m, depth, -velocity.y);
+    if (normal <= 0) {
+      if (options_.drop_contacts) kept = 1 - options_.drop_share;
+      continue;
+    }
     const double friction = friction_force(foot.law, normal, std::abs(velocity.x));
     const double along = -std::copysign(friction, velocity.x);
     push(runner, obstacle_contact.body, point, along, normal);

@@ -22,7 +22,7 @@ constexpr int kLegs = PlanarModel::kLegs;
 
 PlanarDynamics::PlanarDynamics(PlanarModel model, const simulation::EngineOptions& options)
     : model_(std::move(model)),
-      drop_contacts_(options.drop_contacts),
+      dropped_(options.drop_contacts ? options.drop_share : 0),
       nominal_obstacles_(options.nominal_obstacles) {
   for (int g = 0; g < kGroups; ++g) max_force_N_[g] = model_.muscles[g].max_force;
   choose_paths();
@@ -178,7 +178,7 @@ void PlanarDynamics::evaluate(const State& state, const Fibers& activation, Stat
   std::array<V2, 3> torque{};
   pull_muscles(state, activation, k, rate, torque, linear);
   push_limits(state, torque, linear);
-  FootForces feet = touch_ground(model_, state, k, drop_contacts_, linear);
+  FootForces feet = touch_ground(model_, state, k, dropped_, linear);
   for (int leg = 0; leg < kLegs; ++leg) forces_.ground_N[leg] = {feet.x[leg], feet.y[leg]};
   if (!obstacles_.empty()) touch_obstacles(model_, obstacles_, state, k, feet, linear);
   load(model_, k, torque, feet, equations);

@@ -79,7 +79,8 @@ class PlanarDynamics {
   };
 
   PlanarModel model_;
-  bool drop_contacts_, nominal_obstacles_;
+  double dropped_;  // share of the force of a contact after one that pulls
+  bool nominal_obstacles_;
   Fibers max_force_N_;
   std::vector<PlanarObstacle> obstacles_;
   Modes modes_{};

@@ -58,7 +58,7 @@ void add_rolling(PlanarLinear::Matrix& matrix, const Columns& column, const Pair
 }  // namespace
 
 FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const PlanarKinematics& k,
-                        bool drop_contacts, PlanarLinear* linear) {
+                        double dropped, PlanarLinear* linear) {
   if (m.spheres_of_foot == 0) return {};
   const V4 zero{};
   const auto twice = [](V2 v) { return V4{v[0], v[1], v[0], v[1]}; };
@@ -75,7 +75,8 @@ FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const Pl
   const V4 kx = m.contact.plane_strain_modulus * x_in;
   const V4 hertz = 4.0 / 3 * kx * simd::sqrt(m.sphere_radius_m * kx);
   V4 normal = hertz * (1 - 1.5 * m.contact.dissipation * vy);
-  if (drop_contacts && m.spheres_of_foot == 2) {
+  V4 kept = simd::all(1);  // share of the normal force
+  if (dropped > 0 && m.spheres_of_foot == 2) {
     for (int leg = 0; leg < PlanarModel::kLegs; ++leg) {
       const auto center = [&](int i) {
         return osim::Vec3{state.q(7) + k.origin[3].x[leg] + arm_x[i], y[i], m.sphere_z_m[i]};
@@ -83,10 +84,10 @@ FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const Pl
       const bool in_order = laws::first_sphere_is_swept_first(
           center(leg), m.sphere_radius_m[leg], center(leg + 2), m.sphere_radius_m[leg + 2]);
       const int first = in_order ? leg : leg + 2, second = in_order ? leg + 2 : leg;
-      if (depth[first] > 0 && normal[first] <= 0) normal[second] = 0;
+      if (depth[first] > 0 && normal[first] <= 0) kept[second] = 1 - dropped;
     }
   }
-  normal = simd::max(normal, zero);
+  normal = simd::max(normal, zero) * kept;
   const V4 slip = vx < zero ? -vx : vx;
   const V4 v = slip / m.contact.transition_velocity_m_s;
   const double us = m.contact.static_friction, ud = m.contact.dynamic_friction;
@@ -103,7 +104,7 @@ FootForces touch_ground(const PlanarModel& m, const PlanarState& state, const Pl
   if (!linear) return feet;
   const auto pushes = normal > zero;
   const V4 spring = pushes ? 1.5 * normal / x_in : zero;
-  const V4 damper = pushes ? 1.5 * m.contact.dissipation * hertz : zero;
+  const V4 damper = pushes ? 1.5 * m.contact.dissipation * hertz * kept : zero;
   const V4 brake = v < simd::all(1) ? normal * (us / m.contact.transition_velocity_m_s) : zero;
   const Pair joint[3] = {k.origin[3], k.hinge, k.origin[1]};
   for (int i = 0; i < 2 * m.spheres_of_foot; i += 2) {

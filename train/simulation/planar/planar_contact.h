@@ -16,7 +16,7 @@ struct PlanarObstacle {
 
 /// Contact of the feet with the ground. If `linear` is given, adds stiffness and damping to it.
 FootForces touch_ground(const PlanarModel& model, const PlanarState& state,
-                        const PlanarKinematics& k, bool drop_contacts, PlanarLinear* linear);
+                        const PlanarKinematics& k, double dropped, PlanarLinear* linear);
 
 /// Adds the contact with obstacles.
 void touch_obstacles(const PlanarModel& model, const std::vector<PlanarObstacle>& obstacles,

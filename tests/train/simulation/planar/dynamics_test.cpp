@@ -147,6 +147,13 @@ TEST(PlanarDynamics, AgreesWithSimbodyUnderTheCompetitionsContacts) {
   expect_agreement(options);
 }
 
+TEST(PlanarDynamics, AgreesWithSimbodyWhereAShareOfTheForceIsDropped) {
+  simulation::EngineOptions options;
+  options.drop_contacts = true;
+  options.drop_share = 0.4;
+  expect_agreement(options);
+}
+
 TEST(PlanarDynamics, KnowsHowFastFibersReturn) {
   const osim::Model model = osim::load_osim(osim::default_model_file());
   const planar::PlanarModel planar = planar::planar_model(model);
