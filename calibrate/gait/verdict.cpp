@@ -83,7 +83,7 @@ void judge_posture(const Trajectory& trajectory, double leg_px, Verdict& verdict
   else if (std::abs(leg.x()) > std::abs(leg.y()))
     verdict.refuse(
         "the legs lie level: the clip, or the picture that its points were made on, is turned by "
-        "90 degrees; turn it");
+        "90 degrees; turn it (or is it an animal, or nobody upright?)");
   std::vector<double> off;
   for (const TrajectoryFrame& frame : trajectory.frames) {
     const Point &right = frame[BodyPart::hip_r], &left = frame[BodyPart::hip_l];

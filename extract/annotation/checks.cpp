@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "extract/io/statistics.h"
+#include "extract/tracking/corrections.h"
 
 namespace stride::annotation {
 namespace {
@@ -77,15 +78,10 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
 std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoints& keypoints,
                                       const std::vector<BodyPart>& parts,
                                       const std::vector<WorstPoint>& passed_by) {
-  constexpr int kNear = 3;                 // frames over which a correction reaches
-  constexpr double kNoiseAtMost = 0.0152;  // legs, at a confidence of 1
-  // How far a network's idea of a joint is from ours, in legs: measured for the ankle 0.03, for the
-  // toe 0.04 to 0.09, of which half counts, because a potential has no toes.
-  const auto bias = [](BodyPart part) {
-    const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l,
-               ankle = part == BodyPart::ankle_r || part == BodyPart::ankle_l;
-    return toe ? 0.03 : ankle ? 0.03 : 0.015;
-  };
+  constexpr int kNear = 3;                     // frames over which a correction reaches
+  constexpr double kMostBelieved_legs = 0.06;  // noise at which tracking leaves a point to the gait
+  // A potential has knees, ankles and pelvis.
+  const auto share = [](BodyPart part) { return row(part).required ? 1.0 : 0.05; };
   const auto clicks_on = [&](BodyPart part) {  // either side
     int clicks = 0;
     for (const auto& [number, frame] : keypoints.frames)
@@ -104,11 +100,19 @@ std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoi
   std::optional<WorstPoint> worst;
   double greatest = 0;
   for (const BodyPart part : parts) {
-    const double shared = bias(part) * bias(part) / (1 + clicks_on(part));
+    // What the clicks so far have left of the detector's own idea of the joint, on every frame.
+    const double idea = std::pow(tracking::convention(part).along_legs, 2);
+    const double points =
+        static_cast<double>(prediction.frames.size()) * (1 + (mirrored(part) != part));
+    const int clicks = clicks_on(part);
     for (const TrajectoryFrame& frame : prediction.frames) {
       if (!frame[part].present()) continue;
-      const double own = kNoiseAtMost / std::max(frame[part].confidence, 0.05);
-      const double expected = own * own + shared;
+      const double own = tracking::detected_noise_legs(frame[part].confidence);
+      const double unsure = own * own + tracking::kHand_legs * tracking::kHand_legs;
+      const auto left = [&](int n) { return idea / (1 + n * idea / unsure); };
+      const double expected =
+          share(part) * (own * own / (1 + std::pow(own / kMostBelieved_legs, 2)) +
+                         points * (left(clicks) - left(clicks + 1)));
       if (expected <= greatest || is_done(frame.frame, part)) continue;
       greatest = expected;
       worst = WorstPoint{frame.frame, part};

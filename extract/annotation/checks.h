@@ -32,9 +32,10 @@ struct WorstPoint {
   BodyPart part = BodyPart::pelvis;
 };
 
-/// The point with the largest expected error: by its own confidence, and by how far the detector's
-/// idea of the joint may be from ours, which every click on the joint makes smaller. Not within
-/// three frames of a click on the same part, nor what was passed by. Nothing if no part is left.
+/// The point whose correction is expected to take most from the error of the whole clip: its own,
+/// by its confidence, and on all frames what is left of the detector's own idea of the joint, which
+/// a click on a point that the detector is sure of tells best. Not within three frames of a click
+/// on the same part, nor what was passed by. Nothing if no part is left.
 std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoints& keypoints,
                                       const std::vector<BodyPart>& parts,
                                       const std::vector<WorstPoint>& passed_by);

@@ -6,8 +6,10 @@
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/statistics.h"
+#include "extract/tracking/corrections.h"
 #include "extract/tracking/left_out_frames.h"
 #include "extract/tracking/leg_identity.h"
+#include "extract/tracking/limb_lengths.h"
 #include "extract/tracking/picture_check.h"
 
 namespace stride::tracking {
@@ -305,6 +307,7 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   marks.width_px = info.width_px;
   marks.height_px = info.height_px;
   if (options.repair_legs && !labels) marks = repaired(marks);
+  if (!from_file && !labels) doubt_broken_limbs(marks, kDetectedNoise_legs);
   marks.direction = facing(marks);
   marks.video = file.filename().string();
   return labelled;

@@ -20,6 +20,9 @@ constexpr double kMostBytes = 400e6;  // of frames held as they are
 constexpr double kSeenWell = 0.5;     // height of a heat map
 constexpr double kMostUnseen = 0.25;  // of the frames between the first and the last
 constexpr int kFewestFrames = 10;
+// Of the crop's side, from the hips to the picture's left or right edge. Nearer to it a leg may be
+// outside, which the network then draws inside, on the other leg. Half a leg, about.
+constexpr double kLegsCut = 0.2;
 
 /// Which landmarks a part is the mean of, and the standard deviation of its error, of each
 /// coordinate in leg lengths, where its heat map reaches 0.9: measured on our clips, the difference
@@ -150,7 +153,10 @@ std::vector<FollowedPerson> people_in(const std::filesystem::path& video,
 imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
   imports::ImportedFrame result;
   result.frame = frame;
+  const double hips_px = (body.landmarks[23].p_px.x() + body.landmarks[24].p_px.x()) / 2;
+  const bool legs_cut = std::min(hips_px, image.width - 1 - hips_px) < kLegsCut * body.next.size_px;
   for (const auto& [part, landmarks, sd_legs] : kParts) {
+    if (legs_cut && row(part).side) continue;
     const Landmark &a = body.landmarks[landmarks[0]], &b = body.landmarks[landmarks[1]];
     const Vector2d p_px = (a.p_px + b.p_px) / 2;
     const bool inside = p_px.x() >= -0.5 && p_px.y() >= -0.5 && p_px.x() <= image.width - 0.5 &&

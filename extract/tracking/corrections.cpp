@@ -1,12 +1,14 @@
 #include "extract/tracking/corrections.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <vector>
 
+#include "extract/io/statistics.h"
 #include "extract/video/decoded_clip.h"
 
 namespace stride::tracking {
@@ -14,75 +16,129 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kClicksAsPrior = 1.5;    // that no offset is expected weighs as much as these
-constexpr double kReach_s = 0.04;         // over which the rest of a correction fades
-constexpr double kFarthestSpread = 0.15;  // of the runner's size
+constexpr double kDoubtful = 1.7;   // times the usual noise
+constexpr double kMemory_s = 0.02;  // correlation time of the detector's noise
+constexpr double kGross = 2.5;      // standard deviations: on another leg, or nonsense
+
+/// Limbs between the pelvis and a part.
+int joints_from_pelvis(BodyPart part) {
+  int joints = 0;
+  for (; row(part).parent != part; part = row(part).parent) ++joints;
+  return joints;
+}
 
 const TrajectoryFrame* frame_of(const Trajectory& points, int frame) {
   const auto found = std::ranges::lower_bound(points.frames, frame, {}, &TrajectoryFrame::frame);
   return found != points.frames.end() && found->frame == frame ? &*found : nullptr;
 }
 
-/// (along, across) in units of the limb → pixels: its columns are the limb and that turned by 90°.
-std::optional<Eigen::Matrix2d> axes(const TrajectoryFrame& frame, BodyPart joint, BodyPart above) {
+/// Median length of thigh and shank.
+double leg_px(const Trajectory& points) {
+  std::vector<double> legs;
+  for (const TrajectoryFrame& frame : points.frames)
+    for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
+                                      std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {
+      const double leg = (frame[knee].p_px - frame[BodyPart::pelvis].p_px).norm() +
+                         (frame[ankle].p_px - frame[knee].p_px).norm();
+      if (std::isfinite(leg)) legs.push_back(leg);
+    }
+  return legs.empty() ? video::body_size_px(points) : median(std::move(legs));
+}
+
+/// (along, across) the limb that ends in a joint → the picture. Of a part without a limb: down.
+std::optional<Eigen::Matrix2d> axes(const TrajectoryFrame& frame, BodyPart joint) {
+  const BodyPart above = row(joint).parent;
   if (!frame[joint].present() || !frame[above].present()) return std::nullopt;
-  const Vector2d limb = frame[joint].p_px - frame[above].p_px;
-  if (limb.norm() < 1) return std::nullopt;
+  Vector2d along(0, 1);
+  if (above != joint) along = frame[joint].p_px - frame[above].p_px;
+  if (along.norm() < 1) return std::nullopt;
+  along.normalize();
   Eigen::Matrix2d axes;
-  axes << limb.x(), -limb.y(), limb.y(), limb.x();
+  axes << along.x(), -along.y(), along.y(), along.x();
   return axes;
 }
 
-/// Moves a joint of both legs on every frame by what the clicks say of it on average, in the axes
-/// of the limb above it.
-void move_along_limb(BodyPart right, const Trajectory& clicks, Trajectory& points) {
-  const std::array joints{right, mirrored(right)};
-  Vector2d sum = Vector2d::Zero();
-  double count = kClicksAsPrior;
-  for (const TrajectoryFrame& clicked : clicks.frames) {
-    const TrajectoryFrame* detected = frame_of(points, clicked.frame);
-    if (detected == nullptr) continue;
-    for (const BodyPart joint : joints) {
-      const auto to_px = axes(*detected, joint, row(joint).parent);
-      if (!to_px || !clicked[joint].present()) continue;
-      const Vector2d offset = to_px->inverse() * (clicked[joint].p_px - (*detected)[joint].p_px);
-      if (offset.norm() > 0.5) continue;  // another leg, or nonsense
-      // What the detector was unsure of is wrong by itself, and says little of the other frames.
-      const double sure = std::min(1.0, (*detected)[joint].confidence / kPredictedConfidence);
-      sum += sure * sure * offset;
-      count += sure * sure;
-    }
-  }
-  for (TrajectoryFrame& frame : points.frames)
-    for (const BodyPart joint : joints)
-      if (const auto to_px = axes(frame, joint, row(joint).parent))
-        frame[joint].p_px += *to_px * sum / count;
+/// What a click says of the detector's point beneath it, in leg lengths along and across the limb.
+struct Offset {
+  BodyPart part{};
+  double time_s = 0, noise_legs = 0;
+  Vector2d legs = Vector2d::Zero();
+};
+
+/// Median over the clip.
+double usual_noise_legs(BodyPart either, const Trajectory& detected) {
+  std::vector<double> noises;
+  for (const TrajectoryFrame& frame : detected.frames)
+    for (const BodyPart part : std::set{either, mirrored(either)})
+      if (frame[part].present()) noises.push_back(detected_noise_legs(frame[part].confidence));
+  return noises.empty() ? 0 : median(std::move(noises));
 }
 
-/// The rest of the corrections of a part: each fades with the distance in time. A large one is of
-/// a point on the other leg, and says nothing of the frames beside it.
-void move_near_clicks(BodyPart part, double size_px, const Trajectory& clicks, Trajectory& points) {
-  struct Rest {
-    double time_s;
-    Vector2d px;
-  };
-  std::vector<Rest> rests;
+/// Not of points that the detector is much less sure of than usual: these are wrong by themselves.
+std::vector<Offset> offsets_on(BodyPart either, double leg_px, const Trajectory& clicks,
+                               const Trajectory& detected) {
+  const Convention known = convention(either);
+  const double doubtful = kDoubtful * usual_noise_legs(either, detected);
+  std::vector<Offset> offsets;
   for (const TrajectoryFrame& clicked : clicks.frames) {
-    const TrajectoryFrame* detected = frame_of(points, clicked.frame);
-    if (detected == nullptr || !clicked[part].present() || !(*detected)[part].present()) continue;
-    const Vector2d rest_px = clicked[part].p_px - (*detected)[part].p_px;
-    if (rest_px.norm() < kFarthestSpread * size_px) rests.push_back({detected->time_s, rest_px});
-  }
-  for (TrajectoryFrame& frame : points.frames) {
-    Vector2d moved = Vector2d::Zero();
-    double weights = 0;
-    for (const Rest& rest : rests) {
-      const double weight = std::exp(-0.5 * std::pow((frame.time_s - rest.time_s) / kReach_s, 2));
-      moved += weight * rest.px;
-      weights += weight;
+    const TrajectoryFrame* frame = frame_of(detected, clicked.frame);
+    if (frame == nullptr) continue;
+    for (const BodyPart part : std::set{either, mirrored(either)}) {
+      const auto to_px = axes(*frame, part);
+      if (!to_px || !clicked[part].present()) continue;
+      const double noise = detected_noise_legs((*frame)[part].confidence);
+      const Vector2d legs =
+          to_px->transpose() * (clicked[part].p_px - (*frame)[part].p_px) / leg_px;
+      const double spread = std::hypot(known.along_legs, noise, kHand_legs);
+      if (noise < doubtful && legs.norm() < kGross * spread)
+        offsets.push_back({part, frame->time_s, noise, legs});
     }
-    if (frame[part].present()) frame[part].p_px += moved / std::max(weights, 1.0);
   }
+  return offsets;
+}
+
+/// Covariance of the offset of all frames in one axis, and of the noise at two points.
+double covariance(const Offset& a, const Offset& b, double convention_legs) {
+  const double together =
+      a.part == b.part ? std::exp(-std::abs(a.time_s - b.time_s) / kMemory_s) : 0;
+  return convention_legs * convention_legs + a.noise_legs * b.noise_legs * together;
+}
+
+/// Moves a part of both sides on every frame.
+void teach(BodyPart either, double leg_px, const Trajectory& clicks, const Trajectory& detected,
+           Trajectory& points) {
+  const std::vector<Offset> offsets = offsets_on(either, leg_px, clicks, detected);
+  if (offsets.empty()) return;
+  const auto n = static_cast<Eigen::Index>(offsets.size());
+  const auto at = [&](Eigen::Index i) -> const Offset& {
+    return offsets[static_cast<std::size_t>(i)];
+  };
+  const Convention known = convention(either);
+  const std::array sd{known.along_legs, known.across_legs};
+  std::array<Eigen::VectorXd, 2> weights;
+  for (const int axis : {0, 1}) {
+    Eigen::MatrixXd covariances(n, n);
+    Eigen::VectorXd seen(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      seen[i] = at(i).legs[axis];
+      for (Eigen::Index j = 0; j < n; ++j)
+        covariances(i, j) =
+            covariance(at(i), at(j), sd[axis]) + (i == j ? kHand_legs * kHand_legs : 0);
+    }
+    weights[axis] = covariances.llt().solve(seen);
+  }
+  for (std::size_t k = 0; k < points.frames.size(); ++k)
+    for (const BodyPart part : std::set{either, mirrored(either)}) {
+      const TrajectoryFrame& frame = detected.frames[k];
+      const auto to_px = axes(frame, part);
+      if (!to_px) continue;
+      const Offset here{part, frame.time_s, detected_noise_legs(frame[part].confidence)};
+      Vector2d legs = Vector2d::Zero();
+      for (const int axis : {0, 1})
+        for (Eigen::Index i = 0; i < n; ++i)
+          legs[axis] += covariance(here, at(i), sd[axis]) * weights[axis][i];
+      points.frames[k][part].p_px += *to_px * legs * leg_px;
+    }
 }
 
 void put(const Trajectory& clicks, Trajectory& points) {
@@ -100,12 +156,29 @@ void put(const Trajectory& clicks, Trajectory& points) {
 
 }  // namespace
 
+double detected_noise_legs(double confidence) {
+  constexpr double kLeast = 0.05;
+  return kDetectedNoise_legs / std::clamp(confidence, kLeast, 1.0);
+}
+
+Convention convention(BodyPart part) {
+  switch (joints_from_pelvis(part)) {
+    case 0:
+      return {0.015, 0.015};
+    case 1:
+      return {0.012, 0.012};
+    case 2:
+      return {0.035, 0.012};
+    default:
+      return {0.07, 0.02};
+  }
+}
+
 Trajectory corrected(const Trajectory& detected, const Trajectory& clicks) {
   Trajectory points = detected;
-  for (const Bone& bone : kBones)
-    if (row(bone.to).side == Side::right) move_along_limb(bone.to, clicks, points);
-  const double size_px = video::body_size_px(points);
-  for (const BodyPart part : kBodyParts) move_near_clicks(part, size_px, clicks, points);
+  const double leg = leg_px(detected);
+  for (const BodyPart part : kBodyParts)
+    if (row(part).side != Side::left) teach(part, leg, clicks, detected, points);
   put(clicks, points);
   return points;
 }

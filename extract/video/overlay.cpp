@@ -33,6 +33,16 @@ class Brush {
     });
   }
 
+  /// A limb that nobody sees.
+  void dashes(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const cv::Scalar& colour,
+              double width, double opacity) {
+    constexpr double kDash = 4;  // and as much between two
+    const double length = (b - a).norm();
+    const Eigen::Vector2d step = kDash * scale_ * (b - a) / std::max(length, 1e-6);
+    for (int i = 0; 2 * i * kDash * scale_ < length; ++i)
+      line(a + 2 * i * step, a + (2 * i + 1) * step, colour, width, opacity);
+  }
+
   void ring(const Eigen::Vector2d& p, const cv::Scalar& colour, double radius, double opacity) {
     const auto fixed_radius = static_cast<int>(std::lround(radius * scale_ * (1 << kSubpixelBits)));
     mix(opacity, box(p, p, 2 * radius + 2), [&](cv::Mat& layer) {
@@ -101,9 +111,12 @@ void draw_leg(Brush& brush, const TrajectoryFrame& frame, const Leg& leg,
   const std::array chain{top, leg.knee, leg.ankle, leg.toe};
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
     const Point &a = frame[chain[i]], &b = frame[chain[i + 1]];
-    if (a.present() && b.present())
-      brush.line(a.p_px, b.p_px, colour, i < 2 ? 3 : 2,
-                 opacity(std::min(a.confidence, b.confidence)));
+    if (!a.present() || !b.present()) continue;
+    const double width = i < 2 ? 3 : 2, sure = opacity(std::min(a.confidence, b.confidence));
+    if (b.seen())
+      brush.line(a.p_px, b.p_px, colour, width, sure);
+    else
+      brush.dashes(a.p_px, b.p_px, colour, width, sure);
   }
   for (const BodyPart part : {leg.knee, leg.ankle, leg.toe})
     if (frame[part].present()) draw_joint(brush, frame[part], colour, 3.2);

@@ -38,6 +38,19 @@ TEST(NetworkPoints, AreAbsentOutsideThePicture) {
   EXPECT_EQ(frame[BodyPart::pelvis].p_px, Vector2d(5, 50));
 }
 
+TEST(NetworkPoints, HaveNoLegsWhereOneMayBeBeyondTheSideOfThePicture) {
+  for (const auto& [x_px, seen] :
+       {std::pair(5.0, false), std::pair(100.0, true), std::pair(190.0, false)}) {
+    Body body = body_at({x_px, 50}, 0.9);
+    body.next.size_px = 100;
+    const imports::ImportedFrame frame = points_of(body, 0, {200, 120});
+    EXPECT_TRUE(frame[BodyPart::pelvis].present());
+    EXPECT_TRUE(frame[BodyPart::head].present());
+    for (const BodyPart part : {BodyPart::knee_r, BodyPart::ankle_l, BodyPart::toe_r})
+      EXPECT_EQ(frame[part].present(), seen) << x_px;
+  }
+}
+
 TEST(NetworkPoints, AreTheLessCertainTheLowerTheirHeatMap) {
   const auto knee = [](double peak) {
     return points_of(body_at({100, 50}, peak), 0, {200, 120})[BodyPart::knee_r].confidence;

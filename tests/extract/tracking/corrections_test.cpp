@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stride::tracking {
@@ -78,19 +79,34 @@ TEST(Corrections, OfOneAnkleMoveBothOnEveryFrame) {
   EXPECT_EQ(rms(points, before, BodyPart::knee_r), 0);
 }
 
-TEST(Corrections, OfOneFrameTeachItsNeighboursAndNotTheRest) {
+double farthest_px(const Trajectory& a, const Trajectory& b, BodyPart part, int but) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < a.frames.size(); ++i)
+    if (a.frames[i].frame != but)
+      farthest = std::max(farthest, (a.frames[i][part].p_px - b.frames[i][part].p_px).norm());
+  return farthest;
+}
+
+TEST(Corrections, OfAPointThatIsWrongByItselfMoveNoOther) {
   const Trajectory truth = runner();
-  Trajectory before = truth;
-  for (int i = 28; i < 33; ++i)
-    before.frames[static_cast<std::size_t>(i)][BodyPart::pelvis].p_px.x() += 8;
-  const Trajectory points = corrected(before, clicked(truth, {30}, BodyPart::pelvis));
-  const auto error = [&](std::size_t i) {
-    return (points.frames[i][BodyPart::pelvis].p_px - truth.frames[i][BodyPart::pelvis].p_px)
-        .norm();
-  };
-  EXPECT_LT(error(29), 0.5 * 8);
-  EXPECT_LT(error(31), 0.5 * 8);
-  EXPECT_LT(error(45), 0.01);
+  Trajectory gross = truth, doubtful = truth;
+  gross.frames[30][BodyPart::knee_r].p_px.x() += 40;  // on the other leg
+  doubtful.frames[30][BodyPart::knee_r].p_px.x() += 6;
+  doubtful.frames[30][BodyPart::knee_r].confidence = 0.3;
+  for (const Trajectory& before : {gross, doubtful}) {
+    const Trajectory points = corrected(before, clicked(truth, {30}, BodyPart::knee_r));
+    EXPECT_EQ(points.frames[30][BodyPart::knee_r].p_px, truth.frames[30][BodyPart::knee_r].p_px);
+    EXPECT_EQ(farthest_px(points, before, BodyPart::knee_r, 30), 0);
+    EXPECT_EQ(farthest_px(points, before, BodyPart::knee_l, -1), 0);
+  }
+}
+
+TEST(Corrections, DoNotSpreadTheNoiseOfAHand) {
+  const Trajectory truth = runner();
+  Trajectory clicks = clicked(truth, {30}, BodyPart::knee_r);
+  clicks.frames[0][BodyPart::knee_r].p_px.x() += 3;  // twice a usual error, of a leg of 100 px
+  const Trajectory points = corrected(truth, clicks);
+  EXPECT_LT(farthest_px(points, truth, BodyPart::knee_r, 30), 1);
 }
 
 TEST(Corrections, AddFramesThatTheDetectorLost) {
