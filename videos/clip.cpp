@@ -262,6 +262,7 @@ PinholeCamera Motion::camera(double time_s) const {
   if (clip_.camera_follows)
     camera.x_m += grounding_.speed_m_s * time_s + clip_.sway_m * slow(sway_x_, time_s);
   camera.focal_px *= 1 + clip_.zoom * (time_s / clip_.duration_s() - 0.5);
+  camera.center_v_px += clip_.tilt_px * (time_s / clip_.duration_s() - 0.5);
   if (clip_.camera_follows)
     camera.center_v_px += 0.15 * clip_.sway_m / camera.metres_per_pixel() * slow(sway_y_, time_s);
   return camera;

@@ -36,6 +36,7 @@ struct Clip {
   bool camera_follows = true;
   double sway_m = 0.10;  // amplitude of the camera's lag
   double zoom = 0;       // growth of the focal length over the clip
+  double tilt_px = 0;    // by which the picture sinks over the clip: the camera tilts
 
   double shutter = 0.35;     // open part of the time between frames
   int samples = 14;          // per pixel, over the exposure and the pixel's area

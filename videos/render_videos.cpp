@@ -17,7 +17,7 @@ using namespace stride::videos;
 struct Filming {
   std::string name;
   std::uint64_t seed = 0;
-  double rate_hz = 0, scale = 1, slow_motion = 1;
+  double rate_hz = 0, scale = 1, slow_motion = 1, tilt_px = 0, zoom = 0;
   bool other_side = false, one_place = false;
 };
 
@@ -26,7 +26,8 @@ Clip filmed(Clip clip, const Filming& filming) {
                   "--rate {}, --scale {}, --slow-motion {}: must be positive", filming.rate_hz,
                   filming.scale, filming.slow_motion);
   const bool otherwise = filming.seed > 0 || filming.rate_hz > 0 || filming.scale != 1 ||
-                         filming.slow_motion != 1 || filming.other_side || filming.one_place;
+                         filming.slow_motion != 1 || filming.other_side || filming.one_place ||
+                         filming.tilt_px != 0 || filming.zoom != 0;
   stride::require(!otherwise || !filming.name.empty(),
                   "clip {}: filmed otherwise it is another clip; give it a --name", clip.name);
   if (!filming.name.empty()) clip.name = filming.name;
@@ -36,6 +37,8 @@ Clip filmed(Clip clip, const Filming& filming) {
   if (filming.slow_motion != 1) clip = in_slow_motion(clip, filming.slow_motion);
   if (filming.other_side) clip = from_other_side(clip);
   if (filming.one_place) clip = from_one_place(clip);
+  if (filming.tilt_px != 0) clip.tilt_px = filming.tilt_px;
+  if (filming.zoom != 0) clip.zoom = filming.zoom;
   return clip;
 }
 
@@ -60,6 +63,9 @@ int main(int argc, char** argv) try {
   app.add_option("--slow-motion", filming.slow_motion, "seconds of video a second of the runner");
   app.add_flag("--other-side", filming.other_side, "from the runner's other side");
   app.add_flag("--one-place", filming.one_place, "by a camera that stands");
+  app.add_option("--tilt", filming.tilt_px, "by how many pixels a tilting camera's picture sinks");
+  app.add_option("--zoom", filming.zoom,
+                 "growth of the focal length over the clip, 0.2: by a fifth");
   CLI11_PARSE(app, argc, argv);
 
   std::vector<Clip> all = clips();

@@ -82,10 +82,15 @@ std::optional<double> way_of_runner(const Trajectory& trajectory, const Backgrou
   return xy / xx;
 }
 
-bool turns(const Trajectory& trajectory, const Background& background) {
-  constexpr double kAgree = 0.021;  // rad; they differ by at most 0.016 on our clips
+/// The angle between the way of the runner and that of the background, rad; 0 without a way.
+double disagreement(const Trajectory& trajectory, const Background& background) {
   const auto way = way_of_runner(trajectory, background);
-  return way && std::abs(std::atan(*way) - std::atan(background.tangent)) > kAgree;
+  return way ? std::abs(std::atan(*way) - std::atan(background.tangent)) : 0;
+}
+
+bool turns(double disagreement) {
+  constexpr double kAgree = 0.021;  // rad; they differ by at most 0.016 on our clips
+  return disagreement > kAgree;
 }
 
 }  // namespace
@@ -95,13 +100,16 @@ std::optional<Prior> ground_roll(const Trajectory& trajectory) {
   // Image axes have y down: a floor that falls to the right has a positive slope there.
   if (std::isfinite(trajectory.floor_roll_rad)) return Prior{-trajectory.floor_roll_rad, kLine};
   const auto background = background_of(trajectory);
-  if (!background || background->sd > kSure || turns(trajectory, *background)) return std::nullopt;
-  return Prior{-std::atan(background->tangent), background->sd};
+  if (!background || background->sd > kSure) return std::nullopt;
+  // Less than turns() can tell may still be a tilt.
+  const double apart = disagreement(trajectory, *background);
+  if (turns(apart)) return std::nullopt;
+  return Prior{-std::atan(background->tangent), std::hypot(background->sd, apart)};
 }
 
 bool camera_turns(const Trajectory& trajectory) {
   const auto background = background_of(trajectory);
-  return background && turns(trajectory, *background);
+  return background && turns(disagreement(trajectory, *background));
 }
 
 }  // namespace stride::fit

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/fit/ground_slope.h"
 #include "extract/annotation/labelled_clip.h"
 #include "extract/io/error.h"
 #include "tests/calibrate/rendered.h"
@@ -19,7 +20,7 @@ struct Options {
   std::vector<std::string> clips{"human", "game", "cartoon"};
   std::string from = "clicks";
   unsigned seeds = 10, first = 1;
-  bool vary = false, known_leg = false;
+  bool vary = false, known_leg = false, camera_turns = false;
 };
 
 /// The shipped video, tracked from clicks with another noise seed.
@@ -50,15 +51,43 @@ double share_inside(const std::vector<Accuracy>& all, Number z) {
   return 100.0 * static_cast<double>(inside) / static_cast<double>(all.size());
 }
 
+/// How the roll of the ground is known before cameras that tilt and zoom.
+struct Rolls {
+  int clips = 0, given = 0, given_inside = 0, hinted = 0, fits = 0, fits_inside = 0;
+  double worst_given = 0, worst_fit = 0;  // in standard deviations
+
+  void add(const videos::Clip& clip, const Trajectory& trajectory, const Calibration& found) {
+    ++clips;
+    const auto roll = fit::ground_roll(trajectory);
+    if (roll) {
+      const double z = std::abs(roll->mean - clip.camera.roll_rad) / roll->sd;
+      ++given, given_inside += z < 1.96, worst_given = std::max(worst_given, z);
+    }
+    hinted += found.verdict.text().find("mark the floor") != std::string::npos;
+    if (found.verdict.refused) return;
+    const double z =
+        std::abs(found.run.camera_roll_rad - clip.camera.roll_rad) / found.fit.roll_sd_rad();
+    ++fits, fits_inside += z < 1.96, worst_fit = std::max(worst_fit, z);
+  }
+  std::string text() const {
+    return fmt::format(
+        "  roll of the background given in {} of {}, inside its 95 % in {}, worst {:.1f} sd; floor "
+        "asked for in {}; of the fit inside in {} of {}, worst {:.1f} sd\n",
+        given, clips, given_inside, worst_given, hinted, fits_inside, fits, worst_fit);
+  }
+};
+
 void measure(const Options& options, const std::string& name, const SagittalModel& model) {
   std::vector<Accuracy> all;
   std::string refused;
+  Rolls rolls;
   unsigned worst = 0;
   double worst_m = 0;
   for (unsigned seed = options.first; seed < options.first + options.seeds; ++seed) {
     videos::Clip clip = videos::clip(name);
     if (options.from != "video") clip.seed = 1000 + seed;
     if (options.vary) clip = varied(clip, seed);
+    if (options.camera_turns) clip = turned_camera(clip, seed);
     const Trajectory trajectory =
         options.from == "video"
             ? tracked(clip, seed)
@@ -66,6 +95,7 @@ void measure(const Options& options, const std::string& name, const SagittalMode
     fit::FitOptions fit;
     if (options.known_leg) fit.leg_m = known_leg(clip, seed);
     const Calibration found = calibrate(trajectory, model, fit);
+    if (options.camera_turns) rolls.add(clip, trajectory, found);
     if (found.verdict.refused)
       refused += fmt::format("  seed {}: {}\n", seed, found.verdict.text());
     else
@@ -86,7 +116,7 @@ void measure(const Options& options, const std::string& name, const SagittalMode
                share_inside(all, [](const Accuracy& a) { return a.period_z; }),
                share_inside(all, [](const Accuracy& a) { return a.scale_z; }), worst);
   }
-  fmt::print("{}", refused);
+  fmt::print("{}{}", refused, options.camera_turns ? rolls.text() : "");
   std::fflush(stdout);
 }
 
@@ -106,6 +136,7 @@ int main(int argc, char** argv) try {
   app.add_option("--seeds", options.seeds, "how many of each clip");
   app.add_option("--first", options.first, "the first seed");
   app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");
+  app.add_flag("--camera-turns", options.camera_turns, "the camera tilts, zooms, or both");
   app.add_flag("--known-leg", options.known_leg, "the leg's length is given, to 2 %");
   CLI11_PARSE(app, argc, argv);
   const auto model =

@@ -111,6 +111,15 @@ Clip varied(Clip clip, unsigned seed) {
   return clip;
 }
 
+Clip turned_camera(Clip clip, unsigned seed) {
+  constexpr double kTilt = 0.17, kZoom = 0.3;  // of the picture's height; of the focal length
+  Random random(seed * 15485863 + 11);
+  const double tilt = uniform(random), zoom = uniform(random);
+  if (seed % 3 != 1) clip.tilt_px = (2 * tilt - 1) * kTilt * clip.height_px;
+  if (seed % 3 != 0) clip.zoom = (2 * zoom - 1) * kZoom;
+  return clip;
+}
+
 fit::Prior known_leg(const Clip& clip, unsigned seed) {
   constexpr double kSd = 0.02;
   Random random(seed * 7 + 1);

@@ -22,6 +22,9 @@ Trajectory observed(const videos::Clip& clip, const Marking& how);
 /// Another runner before another camera: lengths, roll, distance, place in the stride, and seed.
 videos::Clip varied(videos::Clip clip, unsigned seed);
 
+/// The same runner before a camera that tilts, zooms, or both, by `seed` % 3.
+videos::Clip turned_camera(videos::Clip clip, unsigned seed);
+
 /// The length of the runner's leg, with the stated error.
 fit::Prior known_leg(const videos::Clip& clip, unsigned seed);
 

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "tests/calibrate/rendered.h"
+#include "videos/truth.h"
+
 namespace stride {
 namespace {
 
@@ -70,6 +73,28 @@ TEST(GroundSlope, IsNotKnownFromACameraThatTilts) {
   Trajectory marked = tilting;
   marked.floor_roll_rad = 0.01;
   EXPECT_EQ(fit::ground_roll(marked)->mean, -0.01);
+}
+
+/// Of rendered runners before cameras that tilt, zoom, or both, half of them by more than the
+/// background can tell.
+TEST(GroundSlope, OfCamerasThatTiltAndZoomIsInsideItsBandOrNotGiven) {
+  int given = 0, inside = 0, asked = 0, none = 0;
+  for (const char* name : {"human", "left", "game"})
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+      const videos::Clip clip = turned_camera(varied(videos::clip(name), seed), seed);
+      const Trajectory seen = observed(clip, {true, clip.click_sd_px, seed});
+      const auto roll = fit::ground_roll(seen);
+      if (!roll) {
+        ++none;
+        asked += fit::camera_turns(seen);
+        continue;
+      }
+      ++given;
+      inside += std::abs(roll->mean - clip.camera.roll_rad) < 1.96 * roll->sd;
+    }
+  EXPECT_GE(given, 40);
+  EXPECT_GE(inside, 0.95 * given) << "of " << given;
+  EXPECT_EQ(asked, none);
 }
 
 TEST(GroundSlope, IsNotKnownFromACameraThatStandsOrSwaysOrIsNotMeasured) {
