@@ -19,7 +19,7 @@ class Pyramids {
 
   const std::vector<cv::Mat>& at(std::size_t i) {
     if (pyramids_[i].empty())
-      cv::buildOpticalFlowPyramid(crops_[i].gray, pyramids_[i],
+      cv::buildOpticalFlowPyramid(crops_[i].image(), pyramids_[i],
                                   {options_.window_px, options_.window_px},
                                   options_.pyramid_levels);
     return pyramids_[i];

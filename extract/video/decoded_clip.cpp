@@ -1,6 +1,7 @@
 #include "extract/video/decoded_clip.h"
 
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "extract/io/statistics.h"
@@ -54,6 +55,14 @@ class RunnerBox {
   Vector2d low_ = Vector2d::Zero(), high_ = Vector2d::Zero();
 };
 
+/// JPEG of high quality takes a sixth.
+void pack(Crop& crop) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", crop.gray, bytes, {cv::IMWRITE_JPEG_QUALITY, 95});
+  crop.packed = cv::Mat(bytes, true).reshape(1, 1);
+  crop.gray.release();
+}
+
 /// The box moved inside the frame: Lucas–Kanade needs crops of one size.
 Crop cropped(const cv::Mat& bgr, cv::Rect box) {
   box.width = std::min(box.width, bgr.cols);
@@ -68,6 +77,10 @@ Crop cropped(const cv::Mat& bgr, cv::Rect box) {
 }
 
 }  // namespace
+
+cv::Mat Crop::image() const {
+  return packed.empty() ? gray : cv::imdecode(packed, cv::IMREAD_GRAYSCALE);
+}
 
 double body_size_px(const Trajectory& marks) {
   std::vector<double> sizes;
@@ -89,13 +102,17 @@ DecodedClip decode_clip(const Trajectory& marks, const FrameSource& frames,
   const int first = marks.frames.empty() ? 0 : marks.frames.front().frame,
             last = marks.frames.empty() ? -1 : marks.frames.back().frame;
   clip.first_frame = first;
+  double held_bytes = 0;
   CameraTracker camera({.most_features = 48});  // enough for the displacement; half the time of 80
   for (VideoFrame frame; frames(frame);) {
     clip.times_s.push_back(frame.time_s);
     if (frame.index < first || frame.index > last) continue;
     if (options.crops) {
       const Vector2d margin = Vector2d::Constant(0.4 * size_px + 16);
-      clip.crops.push_back(cropped(frame.image, runner.at(frame.index, margin, margin)));
+      Crop& crop =
+          clip.crops.emplace_back(cropped(frame.image, runner.at(frame.index, margin, margin)));
+      held_bytes += static_cast<double>(crop.gray.total());
+      if (held_bytes > options.most_bytes) pack(crop);
     }
     if (options.camera) {  // excludes arms and head too
       const cv::Rect box =

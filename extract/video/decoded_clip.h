@@ -13,8 +13,11 @@ namespace stride::video {
 
 /// A crop of a frame around the runner.
 struct Crop {
-  cv::Mat gray;
+  cv::Mat gray;      // or empty, and
+  cv::Mat packed;    // one row of JPEG bytes
   cv::Point origin;  // of its top left pixel in the frame
+
+  cv::Mat image() const;
 };
 
 /// What tracking needs of a video, in memory, so that frames are decoded once.
@@ -32,6 +35,7 @@ using FrameSource = std::function<bool(VideoFrame&)>;
 struct DecodeOptions {
   bool crops = true;
   bool camera = true;
+  double most_bytes = 400e6;  // of crops that are held as they are; further ones are packed
   std::function<void(int frame, int last)> progress;  // called for each frame that was decoded
 };
 

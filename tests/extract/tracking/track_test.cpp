@@ -49,6 +49,22 @@ TEST(Track, CoversEveryFrameFromTheFirstMarkToTheLast) {
   EXPECT_EQ(frames.front()[BodyPart::knee_r].confidence, 1);
 }
 
+TEST(Track, IsNearlyTheSameFromPackedCrops) {
+  Keypoints keypoints = load_keypoints(kClicks);
+  keypoints.trim = FrameRange{3, 40};
+  video::DecodeOptions packed;
+  packed.camera = false;
+  packed.most_bytes = 1e5;  // two crops
+  const Trajectory whole = tracked({}, keypoints).trajectory,
+                   other = tracking::track(kVideo, {tracking::marks_of(keypoints)}, {}, packed)
+                               .trajectory;
+  ASSERT_EQ(whole.frames.size(), other.frames.size());
+  for (std::size_t i = 0; i < whole.frames.size(); ++i)
+    for (const BodyPart part : kRequiredParts)
+      EXPECT_LT((whole.frames[i][part].p_px - other.frames[i][part].p_px).norm(), 0.15)
+          << whole.frames[i].frame << " " << name(part);
+}
+
 TEST(Track, GoesThroughTheMarksIfItIsAskedTo) {
   const Keypoints keypoints = load_keypoints(kClicks);
   tracking::TrackOptions options;
