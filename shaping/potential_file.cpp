@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
@@ -86,8 +87,12 @@ bool is_finite(const Pose& pose) {
 Json parse(const std::string& content, const std::string& file) {
   try {
     return Json::parse(content);
-  } catch (const Json::exception& error) {
-    throw Error(fmt::format("{}: is not JSON: {}", file, error.what()));
+  } catch (const Json::parse_error& error) {
+    throw Error(
+        fmt::format("{}: is not JSON, at {}: expected a potential; make one with `stride convert`",
+                    file, place_of_byte(content, error.byte > 0 ? error.byte - 1 : 0)));
+  } catch (const Json::exception&) {
+    throw Error(fmt::format("{}: is not JSON: a number is too large", file));
   }
 }
 
@@ -200,7 +205,7 @@ void save(const Potential& potential, const std::filesystem::path& file) {
       {"weight", potential.weight},
       {"keyframes", keyframes}};
   if (potential.movement != kDefaultMovement) json["movement"] = potential.movement;
-  write_file_atomically(file, json.dump(1) + "\n");
+  write_file_atomically(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace stride

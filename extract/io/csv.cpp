@@ -136,6 +136,13 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
   return table;
 }
 
+std::string place_of_byte(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte, text.size()));
+  const std::size_t end = before.rfind('\n');
+  return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'),
+                     end == before.npos ? before.size() + 1 : before.size() - end);
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};

@@ -30,6 +30,9 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
 /// The text in UTF-8 without a byte order mark, lines ending in LF.
 std::string decoded_text(std::string_view content, const std::string& file);
 
+/// "line 3, column 5", both from 1: where a byte is, for a message about a text of any kind.
+std::string place_of_byte(std::string_view text, std::size_t byte);
+
 /// A cell or line without surrounding blanks, tabs and carriage returns.
 std::string_view trimmed(std::string_view text);
 

@@ -63,4 +63,18 @@ std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& 
   return settings;
 }
 
+std::string toml_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f)
+      quoted += fmt::format("\\u{:04X}", code);
+    else if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
 }  // namespace stride

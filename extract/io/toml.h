@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stride {
@@ -21,5 +22,8 @@ struct TomlSetting {
 std::vector<TomlSetting> load_toml(const std::filesystem::path& file);
 /// The same of a text, whose errors name `source`.
 std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& source);
+
+/// A text as TOML writes it, in double quotes: reads back as the same whatever is in it.
+std::string toml_text(std::string_view text);
 
 }  // namespace stride

@@ -42,7 +42,9 @@ std::vector<Vector2d> pelvis_path(const Trajectory& points) {
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < points.frames.size(); ++i)
     if (points.frames[i][BodyPart::pelvis].present()) seen.push_back(i);
-  require(!seen.empty(), "{}: the pelvis is on no frame; legs cannot be told apart without it",
+  require(!seen.empty(),
+          "{}: the pelvis is on no frame: expected the middle of the hips, or both hips; legs "
+          "cannot be told apart without it",
           points.video);
   std::vector<Vector2d> path(points.frames.size());
   std::size_t after = 0;

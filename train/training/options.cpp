@@ -225,7 +225,7 @@ std::vector<Field> fields(TrainOptions& o) {
 
 struct Print {
   std::string operator()(bool* v) const { return *v ? "true" : "false"; }
-  std::string operator()(std::string* v) const { return '"' + *v + '"'; }
+  std::string operator()(std::string* v) const { return toml_text(*v); }
   std::string operator()(std::vector<int>* v) const {
     return fmt::format("[{}]", fmt::join(*v, ", "));
   }
@@ -343,7 +343,7 @@ std::string quoted(std::string_view assignment) {
   const std::string_view key = assignment.substr(0, at), value = assignment.substr(at);
   const bool is_toml =
       std::ranges::count(kWords, value) > 0 || value.find_first_of("\"'[+-.0123456789") == 0;
-  return is_toml ? std::string(assignment) : fmt::format("{}'{}'", key, value);
+  return is_toml ? std::string(assignment) : fmt::format("{}{}", key, toml_text(value));
 }
 
 }  // namespace

@@ -122,6 +122,9 @@ void run_script(AnnotationSession& session, const std::filesystem::path& script,
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with("#")) continue;
     try {
       player.play(Json::parse(line));
+    } catch (const Json::exception&) {
+      throw Error(fmt::format("{}:{}: expected an event as one JSON object, as {{\"key\": \"r\"}}",
+                              script.string(), number));
     } catch (const std::exception& error) {
       throw Error(fmt::format("{}:{}: {}", script.string(), number, error.what()));
     }

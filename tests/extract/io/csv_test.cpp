@@ -13,6 +13,13 @@ namespace {
 
 using testing::ElementsAre;
 
+TEST(Csv, SaysWhereAByteOfATextIs) {
+  EXPECT_EQ(place_of_byte("ab\ncd", 0), "line 1, column 1");
+  EXPECT_EQ(place_of_byte("ab\ncd", 3), "line 2, column 1");
+  EXPECT_EQ(place_of_byte("ab\ncd", 4), "line 2, column 2");
+  EXPECT_EQ(place_of_byte("", 9), "line 1, column 1");
+}
+
 TEST(Csv, ReadsWhateverASpreadsheetMakesOfATable) {
   const std::string utf16 = {'\xff', '\xfe', 'x', 0,   ',', 0,   'y', 0,    '\n',
                              0,      '1',    0,   ',', 0,   '2', 0,   '\n', 0};

@@ -38,6 +38,13 @@ TEST(Toml, NumbersReadBackAsTheSame) {
   EXPECT_EQ(parse_toml("x = 9223372036854775807", "x")[0].words[0], "9223372036854775807");
 }
 
+TEST(Toml, TextsReadBackAsTheSame) {
+  for (const std::string& text : {std::string("O'Brien"), std::string("a \"b\" \\c"),
+                                  std::string("line\nbreak\t\x7f"), std::string("ü 走 # x")})
+    EXPECT_EQ(parse_toml("x = " + toml_text(text), "x")[0].words[0], text);
+  EXPECT_EQ(toml_text("plain"), "\"plain\"");
+}
+
 TEST(Toml, ErrorsNameTheLine) {
   EXPECT_ERROR(parse_toml("a = 1\nb = half\n", "f.toml"), "f.toml:2: not TOML");
   EXPECT_ERROR(parse_toml("a = 1\n\na = 2\n", "f.toml"), "f.toml:3: not TOML");

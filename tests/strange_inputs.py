@@ -1,0 +1,264 @@
+#!/usr/bin/env python3
+"""Names, files and codecs that a stranger may bring, through every command that takes them.
+
+    tests/strange_inputs.py STRIDE [--quick] [--verbose]
+
+Names: each command does its work, writes what it should under that name and nothing else, and runs
+nothing. Files of another kind: exit 1 or 2, one sentence that begins with "error:", names the file
+and is no parser's talk; nothing is written. Codecs (needs ffmpeg): as many frames as were coded.
+--quick takes one name of every odd sign, a third of the wrong files, and no codecs.
+"""
+import argparse, hashlib, itertools, json, os, pathlib, shutil, subprocess, sys, tempfile, zipfile
+
+SOURCE = pathlib.Path(__file__).resolve().parents[1]
+NAMES = ["a b  c", "-o", "über 走る 🏃", "it's \"quoted\"", "`touch RAN`", "$(touch RAN)", "%d %s%n", "a;touch RAN;b",
+         "[x]{y}(z)", "#1 & <b>&amp;", "line\nbreak", "a.trajectory", "a.keypoints", "..dots..", "back\\slash",
+         "10:30", "http:x", "a=b,c", "_sub_^sup", "x" * 180, "caf\udce9"]  # the last one in Latin-1
+QUICK = "-`touch RAN`$(touch RAN)'\"%d;&<b>\\_^ü走"
+TALK = ["terminate called", "what():", "std::", "json.exception", "basic_string", "parse_error", "type_error", "stoi",
+        "Assertion", "Sanitizer", "CLI::", "cv::", "OpenCV(", "[ERROR", "Traceback"]
+CODECS = {"hevc.mp4": ["-c:v", "libx265", "-x265-params", "log-level=none"], "vp9.webm": ["-c:v", "libvpx-vp9", "-deadline", "realtime"],
+          "ffv1.mkv": ["-c:v", "ffv1"], "theora.ogv": ["-c:v", "libtheora", "-q:v", "7"], "wmv2.wmv": ["-c:v", "wmv2", "-q:v", "4"],
+          "huffyuv.avi": ["-c:v", "huffyuv"], "rawvideo.avi": ["-c:v", "rawvideo"], "mjpeg.mov": ["-c:v", "mjpeg", "-q:v", "3"],
+          "h264_422.mov": ["-c:v", "libx264", "-pix_fmt", "yuv422p10le"], "mpeg1.mpg": ["-c:v", "mpeg1video", "-q:v", "4", "-r", "24"],
+          "png.mov": ["-c:v", "png"], "flashsv.flv": ["-c:v", "flashsv"]}
+faults, runs = [], 0
+
+
+def stride(folder, *arguments, timeout=120):
+    global runs
+    runs += 1
+    command = [options.stride, *map(str, arguments)]
+    try:
+        done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              timeout=timeout)
+        status, said = done.returncode, done.stdout.decode(errors="replace")
+    except subprocess.TimeoutExpired:
+        status, said = "hangs", ""
+    if options.verbose:
+        print(*map(printable, ("$ stride", *arguments)), "\n" + said[:600].rstrip(), f"\n[exit {status}]", flush=True)
+    for talk in TALK:
+        if talk in said:
+            fault(arguments, f"says '{talk}'", said)
+    return status, said
+
+
+def fault(arguments, what, said=""):
+    line = printable(f"FAULT: stride {' '.join(map(str, arguments))!r}: {what}")
+    faults.append(line)
+    print(line + ("\n  " + said.strip()[-400:].replace("\n", "\n  ") if said else ""), flush=True)
+
+
+def printable(text):
+    return str(text).encode(errors="replace").decode()
+
+
+def sha(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def clicked(video, source="small"):
+    """The clip's clicks beside a video, however it is coded."""
+    clicks = json.loads((SOURCE / "videos" / f"{source}.keypoints.json").read_text())
+    clicks["video"], clicks["video_sha256"] = video.name, sha(video)
+    file = video.with_suffix(".keypoints.json") if video.suffix else pathlib.Path(str(video) + ".keypoints.json")
+    file.write_text(json.dumps(clicks))
+
+
+def contents(folder):
+    return {p.relative_to(folder) for p in pathlib.Path(folder).rglob("*") if p.is_file()}
+
+
+def works(folder, made, *arguments):
+    before = contents(folder)
+    inputs = {p: sha(folder / p) for p in before}
+    status, said = stride(folder, *arguments)
+    if status != 0:
+        return fault(arguments, f"exit {status}", said)
+    after = contents(folder)
+    for path in made:
+        if pathlib.Path(path) not in after:
+            fault(arguments, f"did not make {path!r}", said)
+    extra = after - before - {pathlib.Path(p) for p in made}
+    if extra:
+        fault(arguments, f"made {sorted(map(str, extra))}", said)
+    for path, old in inputs.items():
+        if path not in after or (sha(folder / path) != old and str(path) not in made):
+            fault(arguments, f"changed {path}", said)
+
+
+def names(folder, all_names):
+    for name in all_names:
+        home = folder / "names"
+        shutil.rmtree(home, ignore_errors=True)
+        home.mkdir()
+        video = home / f"{name}.mp4"
+        shutil.copy(SOURCE / "videos/small.mp4", video)
+        clicked(video)
+        (home / "events.jsonl").write_text('{"key": "a"}\n{"key": "d"}\n')
+        v, at = f"./{name}.mp4", name
+        works(home, [f"{at}.trajectory.csv", f"{at}.overlay.mp4"], "track", v, "--overlay", f"./{at}.overlay.mp4")
+        works(home, [f"{at}.calibrated.csv", f"{at}.report.txt", f"{at}.report.svg", f"{at}.fitted.csv"], "calibrate",
+              f"./{at}.trajectory.csv", "--fitted", f"./{at}.fitted.csv")
+        works(home, [], "annotate", v, "--script", "events.jsonl")
+        for file in (".mp4", ".keypoints.json", ".trajectory.csv", ".calibrated.csv", ".report.txt"):
+            works(home, [], "info", f"./{at}{file}")
+        works(home, [f"out/{at}{e}" for e in (".trajectory.csv", ".calibrated.csv", ".report.txt", ".report.svg",
+                                              ".potential.json", ".converted.json")], "convert", v, "-o", "out")
+        works(home, [f"{at}.html"], "report", f"./{at}.trajectory.csv", "-o", f"./{at}.html")
+        run = f"run {at}"
+        status, said = stride(home, "train", "--preset", "demo", "--potential", f"out/{at}.potential.json", "--out", run,
+                              "--decisions", "40")
+        if status != 0 or not (home / run / "config.toml").exists():
+            fault(["train", name], f"exit {status}", said)
+        if (home / "RAN").exists() or list(home.rglob("RAN")):
+            fault([name], "a name was run as a command")
+
+
+def wrong_files(folder):
+    """Kinds of file by a name; the ending is given by the command."""
+    f = folder / "wrong"
+    f.mkdir(exist_ok=True)
+    def write(name, data):
+        (f / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+        return f / name
+    made = {"empty": write("empty", b""), "one byte": write("byte", b"\xff"), "text": write("text", "hello\n" * 50),
+            "binary": write("binary", bytes(range(256)) * 40), "NULs": write("nul", b"\0" * 4096),
+            "html": write("html", "<!DOCTYPE html><html><body>404</body></html>"), "pdf": write("pdf", b"%PDF-1.4\n1 0 obj\n"),
+            "jpeg": SOURCE / "extract/annotation/landmarks.jpg", "source code": SOURCE / "main.cpp",
+            "csv of others": write("others", "time,speed\n0,1\n1,2\n"), "json list": write("list", "[1, 2, 3]"),
+            "json deep": write("deep", "[" * 5000 + "]" * 5000), "json cut": write("cut", '{"format": "stride keypoints", "ver'),
+            "a long line": write("long", "a," * 200000), "UTF-16": write("utf16", "frame,knee_r_x\n0,1\n".encode("utf-16")),
+            "toml": SOURCE / "train/presets/demo.toml", "a model": SOURCE / "calibrate/models/gait9dof18musc.osim",
+            "script": write("script", "#!/bin/sh\ntouch RAN\n"), "elf": write("elf", b"\x7fELF" + bytes(200))}
+    with zipfile.ZipFile(f / "zip", "w") as z:
+        z.writestr("a.csv", "1,2\n")
+    made["zip"] = f / "zip"
+    return made
+
+
+def refuses(folder, what, file, *arguments, writes=None):
+    before = contents(folder)
+    status, said = stride(folder, *arguments)
+    if status not in (1, 2):
+        return fault([what, "as", *arguments], f"exit {status}", said)
+    last = [line for line in said.strip().split("\n") if line.startswith("error:")]
+    if not last:
+        fault([what, "as", *arguments], "no line begins with 'error:'", said)
+    elif str(file) not in said:
+        fault([what, "as", *arguments], f"does not name {file}", said)
+    elif len(said) > 1500:
+        fault([what, "as", *arguments], f"says {len(said)} letters", said)
+    new = contents(folder) - before
+    if new:
+        fault([what, "as", *arguments], f"left {sorted(map(str, new))}", said)
+
+
+def files(folder, human):
+    home = folder / "files"
+    home.mkdir()
+    for name in ("small.mp4", "small.keypoints.json"):
+        shutil.copy(SOURCE / "videos" / name, home)
+    for what, data in list(wrong_files(folder).items())[::3 if options.quick else 1]:
+        def as_(ending):
+            target = home / f"wrong{ending}"
+            if target.is_dir():
+                target.rmdir()
+            for old in home.glob("wrong.*"):
+                old.unlink()
+            shutil.copyfile(data, target)
+            return f"wrong{ending}"
+        refuses(home, what, v := as_(".mp4"), "track", v, "--keypoints", "small.keypoints.json")
+        refuses(home, what, v, "convert", v, "-o", "out")
+        refuses(home, what, v, "annotate", v, "--script", "none.jsonl")
+        if what not in ("jpeg",):  # told as the picture it is
+            refuses(home, what, v, "info", v)
+        refuses(home, what, v, "report", human, "--video", v)
+        refuses(home, what, k := as_(".keypoints.json"), "track", "small.mp4", "--keypoints", k)
+        refuses(home, what, k, "annotate", "small.mp4", "--keypoints", k, "--script", "none.jsonl")
+        if what != "csv of others":
+            refuses(home, what, i := as_(".dat"), "track", "small.mp4", "--import", i)
+        refuses(home, what, t := as_(".trajectory.csv"), "calibrate", t)
+        refuses(home, what, t, "convert", t, "-o", "out")
+        refuses(home, what, t, "report", t)
+        refuses(home, what, c := as_(".calibrated.csv"), "convert", c, "-o", "out")
+        refuses(home, what, c, "train", "--potential", human.replace("trajectory.csv", "potential.json"), "--reference", c, "--out", "run")
+        refuses(home, what, p := as_(".potential.json"), "train", "--potential", p, "--out", "run")
+        refuses(home, what, p, "info", p)
+        if what != "a model":
+            refuses(home, what, m := as_(".osim"), "calibrate", human, "--model", m)
+        refuses(home, what, o := as_(".onnx"), "track", "small.mp4", "--pose", o)
+    for what in ("a folder", "nothing", "a link to itself", "a device"):
+        for ending, command in ((".mp4", ["track"]), (".mp4", ["convert", "-o", "out"]), (".mp4", ["info"]), (".mp4", ["annotate", "--script", "x"]),
+                                (".trajectory.csv", ["calibrate"]), (".trajectory.csv", ["report"]),
+                                (".potential.json", ["train", "--out", "run", "--potential"]), (".csv", ["track", "small.mp4", "--import"])):
+            target = home / f"odd{ending}"
+            if target.is_symlink() or target.is_file():
+                target.unlink()
+            elif target.is_dir():
+                target.rmdir()
+            if what == "a folder":
+                target.mkdir()
+            elif what == "a link to itself":
+                target.symlink_to(target)
+            elif what == "a device":
+                target.symlink_to("/dev/null")
+            refuses(home, what, target.name, *command, target.name)
+    if (home / "RAN").exists():
+        fault(["files"], "a file was run")
+
+
+def codecs(folder):
+    home = folder / "codecs"
+    home.mkdir()
+    (home / "events.jsonl").write_text('{"key": "a"}\n')
+    for name, how in CODECS.items():
+        video = home / name
+        made = subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", SOURCE / "videos/small.mp4", *how, video], capture_output=True)
+        if made.returncode != 0:
+            print(f"{name}: not coded here: {made.stderr.decode()[-200:].strip()}")
+            continue
+        clicked(video)
+        stem = video.stem
+        works(home, [f"{stem}.trajectory.csv"], "track", name)
+        rows = [line for line in (home / f"{stem}.trajectory.csv").read_text().split("\n") if line and line[0].isdigit()]
+        if len(rows) != 96:
+            fault(["track", name], f"{len(rows)} frames, not 96")
+        works(home, [], "annotate", name, "--script", "events.jsonl")
+        status, said = stride(home, "info", name)
+        if status != 0 or "96 frames" not in said:
+            fault(["info", name], f"exit {status}, not 96 frames", said)
+        works(home, [f"{stem}.calibrated.csv", f"{stem}.report.txt", f"{stem}.report.svg", f"{stem}.fitted.mp4"], "calibrate",
+              f"{stem}.trajectory.csv", "--overlay", f"{stem}.fitted.mp4")
+        works(home, [f"out/{stem}{e}" for e in (".trajectory.csv", ".calibrated.csv", ".report.txt", ".report.svg", ".potential.json",
+                                                ".converted.json")], "convert", name, "-o", "out")
+        works(home, [f"{stem}.html"], "report", f"{stem}.trajectory.csv", "-o", f"{stem}.html")
+        shutil.rmtree(home / "out")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        good = folder / "good"
+        good.mkdir()
+        for file in ("small.mp4", "small.keypoints.json"):
+            shutil.copy(SOURCE / "videos" / file, good)
+        status, said = stride(good, "convert", "small.mp4", "-o", ".")
+        if status != 0:
+            sys.exit(f"convert small.mp4: exit {status}\n{said}")
+        if options.only in (None, "names"):
+            names(folder, [QUICK] if options.quick else NAMES)
+        if options.only in (None, "files"):
+            files(folder, str(good / "small.trajectory.csv"))
+        if options.only in (None, "codecs") and not options.quick:
+            codecs(folder)
+    print(f"{runs} runs, {len(faults)} faults")
+    sys.exit(1 if faults else 0)
+
+
+parser = argparse.ArgumentParser()
+parser.add_argument("stride", type=os.path.abspath)
+parser.add_argument("--quick", action="store_true"), parser.add_argument("--verbose", action="store_true")
+parser.add_argument("--only", choices=["names", "files", "codecs"])
+options = parser.parse_args()
+main()
