@@ -24,6 +24,7 @@ struct Calibration {
   fit::StrideFit fit;  // ok is false if the clip was refused before or by the fit
   gait::Gait gait;
   std::optional<AperiodicCalibration> aperiodic;  // instead of `fit` and `gait`
+  bool scaled_by_line = false;                    // a calibration line, not the leg, sets the scale
   CalibratedTrajectory run;  // on the model's proportions; without samples if there is no fit
 
   /// Whether there is a run, refused or not.

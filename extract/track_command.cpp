@@ -186,8 +186,7 @@ void run(Request request) {
   watching.crops = request.track.flow;
   if (labelled.slow_motion == 1) {
     const video::VideoInfo info = video::Video(request.video).info();
-    if (const std::string doubt = tracking::doubt_of_rates(info.capture_rate_hz, info.rate_hz);
-        !doubt.empty())
+    if (const std::string doubt = tracking::doubt_of_header(info); !doubt.empty())
       fmt::print(stderr, "warning: {}\n", doubt);
   }
   const tracking::Tracked tracked =

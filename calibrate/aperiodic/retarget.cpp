@@ -94,20 +94,22 @@ Vector2d between_frames(const std::vector<Vector2d>& points, const std::vector<d
 }  // namespace
 
 Scale scale_of(const PassageFit& fit, const Flight& flight, const fit::FitOptions& options) {
-  const double by_leg = fit.passage.leg_px() / options.leg_m.mean;
+  const auto& line = options.measured_scale;
+  const double by_size =
+      line ? 1 / line->metres_per_pixel : fit.passage.leg_px() / options.leg_m.mean;
+  const double sd = line ? line->relative_sd : options.leg_m.sd;
   Scale scale;
   if (options.metres_per_pixel) {
     scale.px_per_m = 1 / *options.metres_per_pixel;
     scale.relative_sd = 1e-4;
   } else {
-    const double a = 1 / std::pow(flight.relative_sd, 2), b = 1 / std::pow(options.leg_m.sd, 2);
-    scale.px_per_m = std::exp((a * std::log(flight.px_per_m) + b * std::log(by_leg)) / (a + b));
+    const double a = 1 / std::pow(flight.relative_sd, 2), b = 1 / std::pow(sd, 2);
+    scale.px_per_m = std::exp((a * std::log(flight.px_per_m) + b * std::log(by_size)) / (a + b));
     scale.relative_sd = 1 / std::sqrt(a + b);
   }
   scale.leg_m = fit.passage.leg_px() / scale.px_per_m;
-  scale.fall_factor = flight.px_per_m / by_leg;
-  scale.disagreement =
-      std::log(scale.fall_factor) / std::hypot(flight.relative_sd, options.leg_m.sd);
+  scale.fall_factor = flight.px_per_m / by_size;
+  scale.disagreement = std::log(scale.fall_factor) / std::hypot(flight.relative_sd, sd);
   return scale;
 }
 

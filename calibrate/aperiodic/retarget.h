@@ -5,12 +5,13 @@
 
 namespace stride::aperiodic {
 
-/// The scale of a passage: the flight's free fall and the leg's length, weighted.
+/// The scale of a passage: the flight's free fall, and the leg's length or a calibration line,
+/// weighted.
 struct Scale {
   double px_per_m = 0, relative_sd = 0;
   double leg_m = 0;         // that it makes of the runner's leg
-  double disagreement = 0;  // of free fall against the leg, in standard deviations; + too large
-  double fall_factor = 1;   // with how many g a runner with that leg would fall
+  double disagreement = 0;  // of free fall against that, in standard deviations; + too large
+  double fall_factor = 1;   // with how many g a runner of that size would fall
 };
 
 Scale scale_of(const PassageFit& fit, const Flight& flight, const fit::FitOptions& options);

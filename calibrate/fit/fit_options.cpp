@@ -16,6 +16,7 @@ FitOptions fit_options(const RunnerSize& size) {
             most);
   };
   FitOptions options;
+  options.size_given = given > 0;
   if (size.height_m) {
     check("height", *size.height_m, 0.4, 3);
     // For a known height only the proportion is uncertain: 0.476 (measured runners) to 0.491

@@ -53,8 +53,11 @@ StrideFit start(const FitProblem& problem, const StridePeriod& guess) {
   fit.explained = guess.explained;
   fit.harmonics = problem.options.harmonics > 0 ? problem.options.harmonics : 3;
   fit.runner = guess_runner(all, problem.model, guess.period_s, problem.options.leg_m.mean);
-  if (problem.options.metres_per_pixel) {
-    const double px_per_m = 1 / *problem.options.metres_per_pixel;
+  std::optional<double> metres_per_pixel = problem.options.metres_per_pixel;
+  if (const auto& scale = problem.options.measured_scale)
+    metres_per_pixel = scale->metres_per_pixel;
+  if (metres_per_pixel) {
+    const double px_per_m = 1 / *metres_per_pixel;
     const double ratio = std::exp(fit.runner.camera[camera::log_px_per_m]) / px_per_m;
     fit.runner.camera[camera::log_px_per_m] = std::log(px_per_m);
     for (const int i : {body::thigh, body::shank, body::foot, body::trunk})

@@ -331,6 +331,23 @@ void judge_misses(double relative, bool backward, Verdict& verdict) {
     verdict.refuse("the knees bend forward: the runner faces the other way; set the direction");
 }
 
+void judge_line(const CalibrationLine& line, double leg_px, const fit::Prior& leg_m,
+                std::string_view whose, Verdict& verdict) {
+  constexpr double kLeast_m = 0.2, kMost_m = 1.5,
+                   kUnlike = 3;  // of any runner; standard deviations
+  const double by_line_m = leg_px * line.metres_per_pixel();
+  const std::string text = fmt::format(
+      "by the calibration line ({}) the leg is {:.2f} m, the {} one {:.2f} m: does the line lie "
+      "where "
+      "the runner runs, is its length right?",
+      stride::text_of(line), by_line_m, whose, leg_m.mean);
+  if (by_line_m < kLeast_m || by_line_m > kMost_m)
+    verdict.refuse(text);
+  else if (std::abs(std::log(by_line_m / leg_m.mean)) >
+           kUnlike * std::hypot(line.relative_sd(), leg_m.sd))
+    verdict.note(text);
+}
+
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
                const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
   if (!fit.ok) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/fit/fit.h"
@@ -33,6 +34,12 @@ Verdict judge_marks(const Trajectory& trajectory);
 /// Checks of any fit: the robust sd of its marks in legs, and whether its knees bend the wrong way.
 /// Adds to `verdict`.
 void judge_misses(double relative, bool backward, Verdict& verdict);
+
+/// Compares a calibration line with the runner: the leg that it makes, from `leg_px` at its moment,
+/// against `leg_m` with its relative sd, which is what `whose` ("usual", "given") says. Adds to
+/// `verdict`.
+void judge_line(const CalibrationLine& line, double leg_px, const fit::Prior& leg_m,
+                std::string_view whose, Verdict& verdict);
 
 /// Checks of the fit; adds to `verdict`.
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,

@@ -75,6 +75,13 @@ std::string residuals_by_part(const Calibration& c) {
   return text;
 }
 
+/// What the calibration line did.
+std::string line_text(const Trajectory& trajectory, const Calibration& c) {
+  return fmt::format("{} the calibration line, {}",
+                     c.scaled_by_line ? "from" : "from the size that was given; as a check",
+                     text_of(*trajectory.calibration_line));
+}
+
 /// Of a movement that does not repeat.
 std::string passage_text(const Trajectory& trajectory, const SagittalModel& model,
                          const Calibration& c) {
@@ -97,8 +104,10 @@ std::string passage_text(const Trajectory& trajectory, const SagittalModel& mode
   line("length    the pelvis moves by {:.2f} m",
        (own.path.pelvis_px.back() - own.path.pelvis_px.front()).x() / px_per_m);
   line("scale     {:.3f} mm per pixel +- {:.1f} %", 1000 / px_per_m, 100 * own.scale.relative_sd);
-  line("          by free fall {:.3f} +- {:.1f} %; a usual leg would fall with {:.2f} g",
-       1000 / own.flight.px_per_m, 100 * own.flight.relative_sd, own.scale.fall_factor);
+  line("          by free fall {:.3f} +- {:.1f} %; {} would fall with {:.2f} g",
+       1000 / own.flight.px_per_m, 100 * own.flight.relative_sd,
+       c.scaled_by_line ? "a runner of the line's size" : "a usual leg", own.scale.fall_factor);
+  if (trajectory.calibration_line) line("          {}", line_text(trajectory, c));
   line("roll      {:+.2f} deg +- {:.2f} (the ground rises to the right)",
        c.run.camera_roll_rad / kDegree, own.path.roll_sd_rad / kDegree);
   line("runner    thigh {:.3f} m, shank {:.3f} m, together {:.3f} m; the model's {:.3f} and {:.3f}",
@@ -134,7 +143,14 @@ std::string report_text(const Trajectory& trajectory, const SagittalModel& model
   line("scale     {:.3f} mm per pixel +- {:.1f} %, drift {:+.1f} % a second",
        1000 * c.run.metres_per_pixel, 100 * c.fit.scale_relative_sd(),
        -100 * r.camera[camera::drift_per_s]);
-  line("          from the length of the runner's legs; --height, --leg or --scale say it better");
+  if (!trajectory.calibration_line)
+    line(
+        "          from the length of the runner's legs; a calibration line (' in stride "
+        "annotate), "
+        "--height, --leg or --scale say it better");
+  else
+    line("          {} +- {:.1f} %", line_text(trajectory, c),
+         100 * trajectory.calibration_line->relative_sd());
   line("roll      {:+.2f} deg +- {:.2f} (the ground rises to the right)",
        c.run.camera_roll_rad / kDegree, c.fit.roll_sd_rad() / kDegree);
   line("runner    thigh {:.3f} m, shank {:.3f} m, together {:.3f} m; the model's {:.3f} and {:.3f}",

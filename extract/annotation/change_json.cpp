@@ -48,6 +48,11 @@ Json json_of(const ClipSettings& s) {
   if (s.treadmill) json["treadmill"] = *s.treadmill;
   if (s.trim) json["trim"] = Json::array({s.trim->first, s.trim->last});
   if (s.floor) json["floor"] = Json::array({json_of(s.floor->from_px), json_of(s.floor->to_px)});
+  if (const auto& line = s.calibration_line)
+    json["calibration_line"] = {{"frame", line->frame},
+                                {"from_px", json_of(line->from_px)},
+                                {"to_px", json_of(line->to_px)},
+                                {"length_m", line->length_m}};
   return json;
 }
 
@@ -64,6 +69,11 @@ ClipSettings settings_of(const Json& json) {
     s.trim = {frame_of(json.at("trim").at(0)), frame_of(json.at("trim").at(1))};
   if (json.contains("floor"))
     s.floor = {point_of(json.at("floor").at(0)), point_of(json.at("floor").at(1))};
+  if (json.contains("calibration_line")) {
+    const Json& line = json.at("calibration_line");
+    s.calibration_line = {frame_of(line.at("frame")), point_of(line.at("from_px")),
+                          point_of(line.at("to_px")), line.at("length_m").get<double>()};
+  }
   return s;
 }
 
@@ -91,8 +101,8 @@ Change change_of(const std::string& line, const std::string& where) {
                                click_of(edit.at("click"))});
     if (json.contains("settings")) change.settings = settings_of(json.at("settings"));
     return change;
-  } catch (const Json::exception& error) {
-    throw Error(fmt::format("{}: not a line of an annotation journal ({})", where, error.what()));
+  } catch (const Json::exception&) {
+    throw Error(fmt::format("{}: not a line of an annotation journal", where));
   } catch (const Error& error) {
     throw Error(fmt::format("{}: {}", where, error.what()));
   }

@@ -121,6 +121,19 @@ std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoi
   return worst;
 }
 
+std::optional<double> clicked_leg_px(const Keypoints& keypoints) {
+  std::vector<double> legs_px;
+  for (const auto& [number, frame] : keypoints.frames)
+    for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
+                                      std::pair{BodyPart::knee_l, BodyPart::ankle_l}}) {
+      const double thigh = length_px(frame, BodyPart::pelvis, knee),
+                   shank = length_px(frame, knee, ankle);
+      if (thigh > 0 && shank > 0) legs_px.push_back(thigh + shank);
+    }
+  if (legs_px.empty()) return std::nullopt;
+  return median(legs_px);
+}
+
 std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double stride_frames) {
   if (trajectory.frames.empty() || stride_frames <= 0) return std::nullopt;
   std::vector<Eigen::Vector2d> spots;

@@ -20,6 +20,10 @@ struct BoneWarning {
 /// In a side view a thigh and a shank keep their length to 7 % in good clips.
 std::vector<BoneWarning> bone_warnings(const Keypoints& keypoints, int frame);
 
+/// The runner's leg, pelvis to knee to ankle, as clicked: the median over frames and sides; nothing
+/// if no leg was clicked whole.
+std::optional<double> clicked_leg_px(const Keypoints& keypoints);
+
 /// The frame with the least certain parts, except within two frames of a click and in `passed_by`.
 /// Nothing if every part was followed in the picture.
 std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& keypoints,

@@ -5,8 +5,8 @@
 namespace stride::annotation {
 
 ClipSettings settings_of(const Keypoints& k) {
-  return {k.direction, k.near_leg, k.slow_motion,      k.treadmill, k.trim,
-          k.floor,     k.notes,    k.corrects_network, k.movement};
+  return {k.direction, k.near_leg,         k.slow_motion, k.treadmill,        k.trim,
+          k.floor,     k.calibration_line, k.notes,       k.corrects_network, k.movement};
 }
 
 namespace {
@@ -18,6 +18,7 @@ void set(Keypoints& k, const ClipSettings& settings) {
   k.treadmill = settings.treadmill;
   k.trim = settings.trim;
   k.floor = settings.floor;
+  k.calibration_line = settings.calibration_line;
   k.notes = settings.notes;
   k.corrects_network = settings.corrects_network;
   k.movement = settings.movement;

@@ -18,6 +18,7 @@ struct ClipSettings {
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;
   std::optional<FloorLine> floor;
+  std::optional<CalibrationLine> calibration_line;
   std::string notes;
   bool corrects_network = false;
   std::string movement = "run";  // a name of movements.toml

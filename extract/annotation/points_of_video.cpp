@@ -82,6 +82,7 @@ LabelledClip mixed(LabelledClip network, const LabelledClip& clicks) {
   result.marks.movement = clicks.marks.movement;
   result.marks.treadmill = clicks.marks.treadmill;
   result.marks.floor_roll_rad = clicks.marks.floor_roll_rad;
+  result.marks.calibration_line = clicks.marks.calibration_line;
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/skeleton/movement.h"
@@ -44,6 +45,14 @@ Eigen::Vector2d point(const Json& json, const std::string& what) {
   require(json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number(),
           "{} = {}: must be [x, y] in pixels", what, json.dump());
   return {json[0].get<double>(), json[1].get<double>()};
+}
+
+CalibrationLine calibration_line(const Json& json, const std::string& what) {
+  require(json.is_object() && json.contains("px") && json.at("px").is_array() &&
+              json.at("px").size() == 2,
+          "{} = {}: must have frame, px [[x, y], [x, y]] and length_m", what, json.dump());
+  return {value<int>(json, "frame", what, "a frame number"), point(json.at("px")[0], what + ": px"),
+          point(json.at("px")[1], what + ": px"), value<double>(json, "length_m", what, "metres")};
 }
 
 /// The keys that this program does not know, as text.
@@ -103,10 +112,16 @@ void read_frame(const Json& json, const std::string& file, Keypoints& keypoints)
 }
 
 Json parsed(const fs::path& file) {
+  const std::string text = read_file(file);
   try {
-    return Json::parse(read_file(file));
-  } catch (const Json::exception& error) {
-    throw Error(fmt::format("{}: not valid JSON: {}", file.string(), error.what()));
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw Error(
+        fmt::format("{}: not valid JSON at {}: expected a file of clicks, as stride annotate "
+                    "writes it",
+                    file.string(), place_of_byte(text, error.byte > 0 ? error.byte - 1 : 0)));
+  } catch (const Json::exception&) {
+    throw Error(fmt::format("{}: not valid JSON: a number is too large", file.string()));
   }
 }
 
@@ -176,6 +191,8 @@ Keypoints load_keypoints(const fs::path& path) {
             "{}: floor_line_px = {}: must be two points [[x, y], [x, y]]", file, line.dump());
     k.floor = {point(line[0], file + ": floor_line_px"), point(line[1], file + ": floor_line_px")};
   }
+  if (json.contains("calibration_line") && !json.at("calibration_line").is_null())
+    k.calibration_line = calibration_line(json.at("calibration_line"), file + ": calibration_line");
   const auto corrects = value_or<std::string>(json, "corrects", "", file, "network");
   require(corrects.empty() || corrects == "network", "{}: corrects = {}: must be network", file,
           corrects);
@@ -187,7 +204,7 @@ Keypoints load_keypoints(const fs::path& path) {
   k.other_json =
       others(json, {"format", "version", "video", "video_sha256", "width_px", "height_px",
                     "movement", "direction", "near_leg", "slow_motion", "treadmill", "trim",
-                    "floor_line_px", "corrects", "notes", "frames"});
+                    "floor_line_px", "calibration_line", "corrects", "notes", "frames"});
   check(k, file);
   return k;
 }
@@ -205,6 +222,7 @@ void check(const Keypoints& k, const std::string& what) {
     require(k.floor->from_px.allFinite() && k.floor->to_px.allFinite() &&
                 k.floor->from_px.x() != k.floor->to_px.x(),
             "{}: floor_line_px: must be two points beside one another", what);
+  if (k.calibration_line) check(*k.calibration_line, what + ": calibration_line");
   int before = -1;
   double before_s = -1;
   for (const auto& [frame, clicked] : k.frames) {
@@ -244,12 +262,17 @@ std::string text_of(const Keypoints& k) {
   if (k.trim) json["trim"] = {{"first_frame", k.trim->first}, {"last_frame", k.trim->last}};
   if (k.floor)
     json["floor_line_px"] = Json::array({json_of(k.floor->from_px), json_of(k.floor->to_px)});
+  if (k.calibration_line)
+    json["calibration_line"] = {{"frame", k.calibration_line->frame},
+                                {"px", Json::array({json_of(k.calibration_line->from_px),
+                                                    json_of(k.calibration_line->to_px)})},
+                                {"length_m", k.calibration_line->length_m}};
   if (k.corrects_network) json["corrects"] = "network";
   json["notes"] = k.notes;
   add_others(json, k.other_json);
   json["frames"] = Json::array();
   for (const auto& [number, frame] : k.frames) json["frames"].push_back(json_of(number, frame));
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void save(const Keypoints& k, const fs::path& file) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "extract/skeleton/body_part.h"
+#include "extract/skeleton/calibration_line.h"
 #include "extract/skeleton/facing.h"
 
 namespace stride {
@@ -63,6 +64,7 @@ struct Keypoints {
   std::optional<bool> treadmill;
   std::optional<FrameRange> trim;  // only these frames are used
   std::optional<FloorLine> floor;
+  std::optional<CalibrationLine> calibration_line;
   bool corrects_network = false;  // the clicks correct a pose network's points on all frames
   std::string notes;
   std::map<int, ClickedFrame> frames;  // by frame number

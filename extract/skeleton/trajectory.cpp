@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
@@ -18,6 +19,18 @@ int whole(double value, const std::string& what) {
   require(value >= 0 && value <= 1e9 && value == std::floor(value),
           "{} = {}: must be a whole number, 0 or more", what, value);
   return static_cast<int>(value);
+}
+
+CalibrationLine line_in(const std::string& text, const std::string& what) {
+  std::istringstream words(text);
+  double frame = -1;
+  CalibrationLine line;
+  words >> frame >> line.from_px.x() >> line.from_px.y() >> line.to_px.x() >> line.to_px.y() >>
+      line.length_m;
+  require(!words.fail(), "{} = {}: must be a frame, x y x y in px, and a length in m", what, text);
+  line.frame = whole(frame, what);
+  check(line, what);
+  return line;
 }
 
 }  // namespace
@@ -41,6 +54,9 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
     trajectory.movement = movement(table.meta("movement"), file.string() + ": movement").name;
   if (table.has_meta("floor_roll_rad"))
     trajectory.floor_roll_rad = table.meta_number("floor_roll_rad");
+  if (table.has_meta("calibration_line"))
+    trajectory.calibration_line =
+        line_in(table.meta("calibration_line"), file.string() + ": calibration_line");
   require(std::isfinite(trajectory.rate_hz) && trajectory.rate_hz > 0,
           "{}: rate_hz = {}: must be positive", file.string(), trajectory.rate_hz);
 
@@ -97,6 +113,11 @@ Table table_of(const Trajectory& trajectory) {
   if (trajectory.movement != kDefaultMovement) table.set_meta("movement", trajectory.movement);
   if (std::isfinite(trajectory.floor_roll_rad))
     table.set_meta("floor_roll_rad", fmt::format("{}", trajectory.floor_roll_rad));
+  if (const auto& line = trajectory.calibration_line)
+    table.set_meta(
+        "calibration_line",
+        fmt::format("{} {} {} {} {} {}", line->frame, line->from_px.x(), line->from_px.y(),
+                    line->to_px.x(), line->to_px.y(), line->length_m));
   if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");
   const bool camera = std::ranges::any_of(
       trajectory.frames, [](const TrajectoryFrame& f) { return f.camera_px.allFinite(); });

@@ -10,6 +10,7 @@
 
 #include "extract/io/table.h"
 #include "extract/skeleton/body_part.h"
+#include "extract/skeleton/calibration_line.h"
 #include "extract/skeleton/facing.h"
 
 namespace stride {
@@ -73,7 +74,8 @@ struct Trajectory {
   std::optional<Facing> direction;  // none: not known
   double floor_roll_rad =
       std::numeric_limits<double>::quiet_NaN();  // slope of a marked floor line; NaN: none
-  std::string movement = "run";                  // a name of movements.toml
+  std::optional<CalibrationLine> calibration_line;
+  std::string movement = "run";   // a name of movements.toml
   std::optional<bool> treadmill;  // the runner stays in place before a background at rest
   std::vector<TrajectoryFrame> frames;
 };

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "extract/video/video.h"
 
 namespace stride::tracking {
 
@@ -37,6 +40,28 @@ std::string doubt_of_rates(double capture_rate_hz, double rate_hz) {
         "motion, say --slow-motion",
         rate_hz);
   return {};
+}
+
+std::string doubt_of_edits(const std::vector<video::Edit>& edits) {
+  const std::string text = video::text_of(edits);
+  if (text.empty()) return {};
+  // FFmpeg takes the pieces, and repeats frames where they last longer than they were recorded.
+  const bool retimed = std::ranges::any_of(edits, [](const video::Edit& e) { return e.rate != 1; });
+  const auto shown = std::ranges::count_if(
+      edits, [](const video::Edit& edit) { return std::isfinite(edit.from_s); });
+  return fmt::format(
+      "the file's edit list says: {}; {}", text,
+      retimed
+          ? "frames have their recorded times here, not those of players; if the clip is not as "
+            "recorded, ffmpeg -ignore_editlist 1 -i IN -c copy OUT gives the whole recording"
+      : shown > 1 ? "trim the clip to one piece (b, t in stride annotate)"
+                  : "times of other programs may begin later");
+}
+
+std::string doubt_of_header(const video::VideoInfo& info) {
+  const std::string rates = doubt_of_rates(info.capture_rate_hz, info.rate_hz),
+                    edits = doubt_of_edits(info.edits);
+  return rates + (rates.empty() || edits.empty() ? "" : "; ") + edits;
 }
 
 }  // namespace stride::tracking

@@ -2,6 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+namespace stride::video {
+struct Edit;
+struct VideoInfo;
+}  // namespace stride::video
 
 namespace stride::tracking {
 
@@ -17,5 +23,11 @@ std::string doubt_of_period(double period_s, double shortest_s = 0.4, double lon
 /// What a video's own rates say: `capture_rate_hz` of the camera (NaN: not said), `rate_hz` at
 /// which it plays. Empty if nothing is odd.
 std::string doubt_of_rates(double capture_rate_hz, double rate_hz);
+
+/// What a file's edit list does to the clip's times.
+std::string doubt_of_edits(const std::vector<video::Edit>& edits);
+
+/// What a video's header says of its time: its rates and its edit list. Empty if nothing is odd.
+std::string doubt_of_header(const video::VideoInfo& info);
 
 }  // namespace stride::tracking

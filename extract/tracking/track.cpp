@@ -271,6 +271,7 @@ Trajectory marks_of(const Keypoints& keypoints) {
   marks.movement = keypoints.movement;
   marks.direction = keypoints.direction;
   marks.treadmill = keypoints.treadmill;
+  marks.calibration_line = keypoints.calibration_line;
   if (keypoints.floor) {
     const Vector2d along = keypoints.floor->to_px - keypoints.floor->from_px;
     marks.floor_roll_rad = std::atan(along.y() / along.x());

@@ -64,6 +64,7 @@ Container read_container(const std::filesystem::path& file) {
   const std::unique_ptr<AVFormatContext, Close> context(opened);
   Container container;
   container.format = context->iformat->name;
+  if (container.format.find("mp4") != std::string::npos) container.edits = read_edits(file);
   container.capture_rate_hz = capture_rate_hz(context->metadata);
   for (unsigned i = 0; i < context->nb_streams; ++i) {
     const AVStream& stream = *context->streams[i];

@@ -3,6 +3,9 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
+
+#include "extract/video/edit_list.h"
 
 namespace stride::video {
 
@@ -19,6 +22,7 @@ struct Container {
   Turn turn;                  // by the display matrix, as phones write it
   double capture_rate_hz =    // of the camera, where that differs from the rate at which it plays
       std::numeric_limits<double>::quiet_NaN();
+  std::vector<Edit> edits;  // how players show the recording
 };
 
 /// Reads the header alone. Nothing is known of a file that FFmpeg cannot read.

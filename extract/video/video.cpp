@@ -156,6 +156,7 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   d.turn = container.turn;
   d.info.turn = container.turn;
   d.info.capture_rate_hz = container.capture_rate_hz;
+  d.info.edits = container.edits;
   if (container.codec == "apng") d.stamps_s = packet_times_s(file);  // OpenCV rounds to a 60th
   cv::Mat first;
   // OpenCV 4.6 turns by 90 degrees the wrong way: https://github.com/opencv/opencv/issues/22088

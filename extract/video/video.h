@@ -23,6 +23,7 @@ struct VideoInfo {
   double rate_hz = 0;               // as announced, times the slow-motion factor
   Turn turn;                        // of stored frames to those that are handed out
   double capture_rate_hz = 0;       // of the camera, as the file says; NaN: it does not
+  std::vector<Edit> edits;          // how players show the recording
   int announced_frames = 0;         // what the container says, which is often wrong; 0: nothing
 };
 

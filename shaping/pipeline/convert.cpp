@@ -55,7 +55,7 @@ std::string left_out(const fs::path& file) {
 void say_whose_points(const fs::path& potential, const std::string& points) {
   auto json = nlohmann::ordered_json::parse(read_file(potential));
   json["source"]["points"] = points;
-  write_file_atomically(potential, json.dump(1) + "\n");
+  write_file_atomically(potential, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 /// One input and its intermediate results.
@@ -153,6 +153,10 @@ class Clip {
     tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
     if (!clip_.movement.empty()) labelled.marks.movement = clip_.movement;
     result_.points = labelled.points;
+    if (labelled.slow_motion == 1)
+      if (const std::string doubt = tracking::doubt_of_header(video::Video(input_).info());
+          !doubt.empty())
+        fmt::print(stderr, "{}: warning: {}\n", input_.string(), doubt);
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
     save(trajectory, out(kTrajectory));
     if (options_.overlay) video::write_overlay(input_, trajectory, out(kOverlay));
@@ -220,7 +224,7 @@ class Clip {
                                       {"rms_cm", result_.rms_cm},
                                       {"points", result_.points},
                                       {"verdict", result_.verdict}};
-    write_file_atomically(out(".converted.json"), json.dump(1) + "\n");
+    write_file_atomically(out(".converted.json"), json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
 
   fs::path input_;

@@ -30,6 +30,10 @@ std::string counts(const std::array<int, kBodyPartCount>& seen) {
   return text;
 }
 
+std::string calibration_line(const std::optional<CalibrationLine>& line) {
+  return line ? fmt::format("calibration line: {}\n", text_of(*line)) : "";
+}
+
 std::string about_potential(const Potential& p) {
   std::string text = fmt::format(
       "potential of {} on {}\nmovement  {}\nverdict   {}\n{}    {:.4f} s +- {:.4f}, {:.2f} m/s\n"
@@ -57,10 +61,12 @@ std::string about_keypoints(const Keypoints& k) {
   for (const auto& [number, frame] : k.frames)
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].has_value() ? 1 : 0;
   return fmt::format(
-      "clicks on {}, {} x {}, movement {}, the runner faces {}\n{} frames, {} to {}\n{}", k.video,
-      k.width_px, k.height_px, k.movement, k.direction ? kFacings[*k.direction] : "(not said)",
-      k.frames.size(), k.frames.empty() ? 0 : k.frames.begin()->first,
-      k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen));
+             "clicks on {}, {} x {}, movement {}, the runner faces {}\n{} frames, {} to {}\n{}",
+             k.video, k.width_px, k.height_px, k.movement,
+             k.direction ? kFacings[*k.direction] : "(not said)", k.frames.size(),
+             k.frames.empty() ? 0 : k.frames.begin()->first,
+             k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen)) +
+         calibration_line(k.calibration_line);
 }
 
 std::string about_trajectory(const Trajectory& t) {
@@ -68,10 +74,12 @@ std::string about_trajectory(const Trajectory& t) {
   for (const TrajectoryFrame& frame : t.frames)
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].present() ? 1 : 0;
   return fmt::format(
-      "trajectory of {} in pixels, {} x {} at {:.2f} Hz, movement {}, the runner faces {}\n{} "
-      "frames; marks:\n{}",
-      t.video, t.width_px, t.height_px, t.rate_hz, t.movement,
-      t.direction ? kFacings[*t.direction] : "(not said)", t.frames.size(), counts(seen));
+             "trajectory of {} in pixels, {} x {} at {:.2f} Hz, movement {}, the runner faces "
+             "{}\n{} "
+             "frames; marks:\n{}",
+             t.video, t.width_px, t.height_px, t.rate_hz, t.movement,
+             t.direction ? kFacings[*t.direction] : "(not said)", t.frames.size(), counts(seen)) +
+         calibration_line(t.calibration_line);
 }
 
 std::string about_calibrated(const CalibratedTrajectory& c) {
@@ -156,9 +164,7 @@ std::string about_video(const fs::path& file) {
       varies ? fmt::format("; the rate varies: {:.1f} to {:.1f} ms a frame", 1000 * shortest_s,
                            1000 * longest_s)
              : "");
-  if (const std::string doubt =
-          tracking::doubt_of_rates(times.info.capture_rate_hz, times.info.rate_hz);
-      !doubt.empty())
+  if (const std::string doubt = tracking::doubt_of_header(times.info); !doubt.empty())
     text += doubt + "\n";
   if (!times.shortfall.empty()) text += times.shortfall + "\n";
   return text;

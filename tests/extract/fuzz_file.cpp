@@ -8,6 +8,7 @@
 #include "extract/annotation/journal.h"
 #include "extract/io/file.h"
 #include "extract/skeleton/trajectory.h"
+#include "extract/video/edit_list.h"
 #include "tests/support/fuzz.h"
 
 namespace stride {
@@ -47,6 +48,8 @@ void trajectory(std::string_view content) {
   save(load_trajectory(first), second);
   check(read_file(first) == read_file(second));
 }
+
+void edit_list(std::string_view content) { video::text_of(video::edits_in(content)); }
 
 void journal(std::string_view content) {
   const fs::path file = folder() / "a.keypoints.json";

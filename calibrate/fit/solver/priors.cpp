@@ -69,7 +69,16 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   std::ranges::fill(asymmetry, Prior{0, 3 * kDegree});
   add_prior(ceres, r.asymmetry, asymmetry);
 
-  if (!options.metres_per_pixel)
+  if (const auto& measured = options.measured_scale) {
+    // e^(s + ṡu) px per m at its moment
+    ceres::Matrix at(1, camera::size);
+    at << 1, measured->u_s, 0;
+    ceres::Vector mean(camera::size);
+    mean << -std::log(measured->metres_per_pixel), 0, 0;
+    ceres.AddResidualBlock(new ceres::NormalPrior(at / measured->relative_sd, mean), nullptr,
+                           r.camera.data());
+  }
+  if (!options.metres_per_pixel && !options.measured_scale)
     add_residual(ceres, numeric, r, LegLengthResidual{leg, options.leg_m.sd}, nullptr);
   add_residual(ceres, numeric, r, ProportionResidual{body::thigh, body::shank, 1, 0.15}, nullptr);
   add_residual(ceres, numeric, r, ProportionResidual{body::foot, body::shank, 0.47, 0.5}, nullptr);

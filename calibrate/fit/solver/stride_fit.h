@@ -17,6 +17,12 @@ struct Prior {
   double mean = 0, sd = 0;
 };
 
+/// A scale that was measured at one moment: a calibration line's.
+struct MeasuredScale {
+  double metres_per_pixel = 0, relative_sd = 0;
+  double u_s = 0;  // from the middle of the clip
+};
+
 /// Options of the fit. The length of the runner's legs sets the scale.
 struct FitOptions {
   /// Hip to ankle at a straight knee, relative sd. Default: the mean of Drillis and Contini 1966
@@ -24,8 +30,10 @@ struct FitOptions {
   /// 1.76 m, the mean height of the 28 runners of Fukuchi et al. 2017; 4.5 % covers both spreads.
   Prior leg_m{0.850, 0.045};
   std::optional<double> metres_per_pixel;  // in the middle of the clip: known exactly
-  Prior roll_rad{0, 0.035};                // of the ground in the image as it is, clockwise < 0
-  int harmonics = 0;                       // 0: chosen by the data, from 2 to kMaxHarmonics
+  bool size_given = false;  // by a person: leg_m or metres_per_pixel is of this runner
+  std::optional<MeasuredScale> measured_scale;  // instead of leg_m
+  Prior roll_rad{0, 0.035};  // of the ground in the image as it is, clockwise < 0
+  int harmonics = 0;         // 0: chosen by the data, from 2 to kMaxHarmonics
   /// Standard deviation of a person's click in leg lengths: a lower bound for every point, however
   /// smooth the track is.
   double mark_sd = 0.015;

@@ -47,6 +47,7 @@ void AnnotationCanvas::draw_image() {
   s_.shown_area().copyTo(area);
   // Shapes are drawn on the whole canvas; the rest of the canvas is painted over them afterwards.
   draw_floor();
+  draw_calibration_line();
   draw_ghosts();
   draw_clicks();
   draw_loupe();
@@ -59,6 +60,28 @@ void AnnotationCanvas::draw_floor() {
               colour::kGood, 1);
   if (s_.mode_ == AnnotationSession::Mode::floor_to)
     draw_dashes(canvas_, s_.view_.to_canvas(s_.floor_from_), s_.mouse_, colour::kGood);
+}
+
+/// With a tick at each end and its length, on its own frame; elsewhere the camera has moved.
+void AnnotationCanvas::draw_calibration_line() {
+  using Mode = AnnotationSession::Mode;
+  const bool typing = s_.mode_ == Mode::type && s_.typing_.what == Command::calibration_line;
+  if (s_.mode_ == Mode::length_to && s_.measured_.frame == s_.frame_)
+    draw_dashes(canvas_, s_.view_.to_canvas(s_.measured_.from_px), s_.mouse_, colour::kAccent);
+  std::optional<CalibrationLine> line = s_.keypoints().calibration_line;
+  if (typing) line = s_.measured_;
+  if (!line || line->frame != s_.frame_) return;
+  const Eigen::Vector2d from = s_.view_.to_canvas(line->from_px),
+                        to = s_.view_.to_canvas(line->to_px);
+  const Eigen::Vector2d along = (to - from).normalized(), tick(-6 * along.y(), 6 * along.x());
+  draw_line(canvas_, from, to, colour::kAccent, 1);
+  for (const Eigen::Vector2d& end : {from, to})
+    draw_line(canvas_, end - tick, end + tick, colour::kAccent, 1);
+  const Eigen::Vector2d middle = 0.5 * (from + to);
+  if (!typing)
+    draw_text(canvas_, fmt::format("{:.4g} m", line->length_m),
+              {static_cast<int>(middle.x()) + 8, static_cast<int>(middle.y()) - 8},
+              colour::kAccent);
 }
 
 void AnnotationCanvas::draw_ghosts() {

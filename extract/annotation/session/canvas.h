@@ -26,6 +26,7 @@ class AnnotationCanvas {
 
   void draw_image();
   void draw_floor();
+  void draw_calibration_line();
   void draw_ghosts();
   void draw_clicks();
   void draw_loupe();

@@ -68,6 +68,8 @@ void AnnotationCanvas::draw_head_line() {
   if (k.direction) left += fmt::format("   runs to the {}", kFacings[*k.direction]);
   if (k.slow_motion != 1) left += fmt::format("   slow motion {}x", k.slow_motion);
   if (k.treadmill.value_or(false)) left += "   treadmill";
+  if (k.calibration_line)
+    left += fmt::format("   {:.3g} mm/px", 1000 * k.calibration_line->metres_per_pixel());
   if (k.trim) left += fmt::format("   trim {}-{}", k.trim->first, k.trim->last);
   if (s_.prediction_.stride_frames > 0)
     left += fmt::format("   stride {:.1f} frames{}", s_.prediction_.stride_frames,
@@ -105,11 +107,19 @@ std::string AnnotationCanvas::what_a_click_does() const {
       return "Click one end of a line on the floor along the way of running   Esc: not now";
     case Mode::floor_to:
       return "Click the other end of the floor line   Esc: not now";
+    case Mode::length_from:
+      return "Click one end of a length that you know, where the runner runs: marks on the floor, "
+             "a "
+             "person who stands   Backspace: no line   Esc: not now";
+    case Mode::length_to:
+      return "Click its other end   Esc: not now";
     case Mode::type:
-      return fmt::format(
-          "{}: {}_   Enter: take it   Esc: not now",
-          s_.typing_.what == Command::notes ? "Notes" : "Seconds of video for one second",
-          s_.typing_.text);
+      return fmt::format("{}: {}_   Enter: take it   Esc: not now",
+                         s_.typing_.what == Command::notes ? "Notes"
+                         : s_.typing_.what == Command::calibration_line
+                             ? "Length of the line in metres"
+                             : "Seconds of video for one second",
+                         s_.typing_.text);
     case Mode::click:
       break;
   }

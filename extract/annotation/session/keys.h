@@ -40,6 +40,7 @@ enum class Command {
   coarser_phases,
   floor_line,
   floor_from_feet,
+  calibration_line,
   slow_motion,
   treadmill,
   notes,

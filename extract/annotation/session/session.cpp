@@ -9,6 +9,7 @@
 #include "extract/annotation/session/canvas.h"
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
+#include "extract/tracking/time_check.h"
 
 namespace stride::annotation {
 namespace {
@@ -41,6 +42,7 @@ AnnotationSession::AnnotationSession(AnnotationJournal& journal, video::FrameSto
       }
   if (!k.frames.empty()) go_to(k.frames.rbegin()->first);
   ask_first_missing();
+  if (k.slow_motion == 1) tell(tracking::doubt_of_header(frames.info()));
   if (journal.recovered() > 0)
     tell(fmt::format("{} edits were recovered that a killed window had left", journal.recovered()));
 }
@@ -191,6 +193,9 @@ void AnnotationSession::press(const AnnotationEvent& event) {
     case Mode::floor_from:
     case Mode::floor_to:
       return mark_floor(p_px);
+    case Mode::length_from:
+    case Mode::length_to:
+      return mark_length(p_px);
     case Mode::click:
       break;
     default:

@@ -49,7 +49,16 @@ struct AnnotationOptions {
 class AnnotationSession {
  public:
   /// What a click does.
-  enum class Mode { ask_direction, ask_near_leg, click, floor_from, floor_to, type };
+  enum class Mode {
+    ask_direction,
+    ask_near_leg,
+    click,
+    floor_from,
+    floor_to,
+    length_from,
+    length_to,
+    type
+  };
 
   AnnotationSession(AnnotationJournal& journal, video::FrameStore& frames,
                     const AnnotationOptions& options = {});
@@ -126,6 +135,9 @@ class AnnotationSession {
   void erase();
   void set_trim();
   void mark_floor(const Eigen::Vector2d& p_px);
+  void mark_length(const Eigen::Vector2d& p_px);
+  void take_length(std::string text);
+  void take_line_away();
   void edit(Change change);
   void edit_settings(const std::string& what, const ClipSettings& settings);
   void tell(std::string message, bool wrong = false);
@@ -155,6 +167,7 @@ class AnnotationSession {
   std::optional<int> range_from_;
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Constant(-1);  // on the canvas
   Eigen::Vector2d floor_from_ = Eigen::Vector2d::Zero();
+  CalibrationLine measured_;               // while it is being drawn
   double step_factor_ = 1;                 // the user's factor for the spacing of phase frames
   std::vector<int> passed_by_;             // worst frames seen since the last prediction
   std::vector<WorstPoint> passed_points_;  // of a network: worst points that were left as they are

@@ -1,7 +1,9 @@
 // AnnotationSession: edits of the keypoints.
 #include <algorithm>
+#include <charconv>
 
 #include "extract/annotation/asking.h"
+#include "extract/annotation/checks.h"
 #include "extract/annotation/session/session.h"
 #include "extract/io/error.h"
 
@@ -118,6 +120,53 @@ void AnnotationSession::set_trim() {
   edit_settings(
       fmt::format("trimmed to frames {} to {}", settings.trim->first, settings.trim->last),
       settings);
+}
+
+void AnnotationSession::mark_length(const Eigen::Vector2d& p_px) {
+  if (mode_ == Mode::length_from || measured_.frame != frame_) {
+    measured_ = {frame_, p_px, p_px, 0};
+    mode_ = Mode::length_to;
+    return;
+  }
+  measured_.to_px = p_px;
+  if (measured_.length_px() < kShortestLine_px)
+    return tell(
+        fmt::format("{:.1f} px apart: the ends must be {} px or more apart; click the other end",
+                    measured_.length_px(), kShortestLine_px),
+        true);
+  mode_ = Mode::type;
+  typing_ = {Command::calibration_line, ""};
+}
+
+void AnnotationSession::take_length(std::string text) {
+  constexpr double kLeastLeg_m = 0.2, kMostLeg_m = 1.5;  // of any runner, hip to ankle
+  std::ranges::replace(text, ',', '.');
+  double length_m = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), length_m);
+  const std::string rest = text.substr(static_cast<std::size_t>(parsed.ptr - text.data()));
+  require(parsed.ec == std::errc() && (rest.empty() || rest == "m" || rest == " m"),
+          "length = '{}': must be metres, as 1.5", text);
+  measured_.length_m = length_m;
+  check(measured_, "calibration line");
+  std::string what = fmt::format("calibration line {}", text_of(measured_));
+  if (const auto leg_px = clicked_leg_px(keypoints())) {
+    const double leg_m = *leg_px * measured_.metres_per_pixel();
+    require(leg_m >= kLeastLeg_m && leg_m <= kMostLeg_m,
+            "length = {} m: the runner's leg would be {:.2f} m, a person's is about 0.85; click a "
+            "length that lies where the runner runs",
+            length_m, leg_m);
+    what += fmt::format("; the leg is {:.2f} m by it", leg_m);
+  }
+  ClipSettings settings = settings_of(keypoints());
+  settings.calibration_line = measured_;
+  edit_settings(what, settings);
+}
+
+void AnnotationSession::take_line_away() {
+  ClipSettings settings = settings_of(keypoints());
+  if (!settings.calibration_line) return tell("no calibration line to take away", true);
+  settings.calibration_line.reset();
+  edit_settings("calibration line taken away", settings);
 }
 
 }  // namespace stride::annotation

@@ -31,6 +31,10 @@ void AnnotationSession::press_key(int key) {
     return;
   }
   if (mode_ == Mode::ask_direction || mode_ == Mode::ask_near_leg) return answer(key);
+  if (mode_ == Mode::length_from && what == Command::erase) {
+    mode_ = Mode::click;
+    return take_line_away();
+  }
   if (what != Command::none) command(what, key);
 }
 
@@ -71,6 +75,7 @@ void AnnotationSession::finish_typing() {
     settings.notes = typing_.text;
     return edit_settings("notes", settings);
   }
+  if (typing_.what == Command::calibration_line) return take_length(typing_.text);
   double factor = 0;
   const char* end = typing_.text.data() + typing_.text.size();
   const auto parsed = std::from_chars(typing_.text.data(), end, factor);
@@ -211,6 +216,9 @@ void AnnotationSession::command(Command command, int key) {
       return;
     case Command::floor_from_feet:
       return mark_floor_from_feet();
+    case Command::calibration_line:
+      mode_ = Mode::length_from;
+      return;
     case Command::slow_motion:
     case Command::notes:
       mode_ = Mode::type;

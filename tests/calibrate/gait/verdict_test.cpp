@@ -25,6 +25,44 @@ class Verdicts : public testing::Test {
 
 TEST_F(Verdicts, ARunIsOk) { EXPECT_EQ(judge(good()), "ok"); }
 
+/// Of 200 px on a runner of 130 px a metre.
+CalibrationLine line_of(double length_m) { return {20, {100, 50}, {100, 250}, length_m}; }
+
+TEST_F(Verdicts, ACalibrationLineSetsTheScale) {
+  Trajectory t = good();
+  t.calibration_line = line_of(200 / 120.0);  // the leg is 0.92 m
+  const Calibration by_line = calibrate(t, model_);
+  EXPECT_TRUE(by_line.scaled_by_line);
+  EXPECT_EQ(by_line.verdict.text(), "ok");
+  EXPECT_NEAR(120 * by_line.run.metres_per_pixel, 1, 0.01);
+  EXPECT_NEAR(by_line.fit.scale_relative_sd(), t.calibration_line->relative_sd(), 0.003);
+  const Calibration by_leg = calibrate(good(), model_);
+  EXPECT_FALSE(by_leg.scaled_by_line);
+  EXPECT_NEAR(130 * by_leg.run.metres_per_pixel, 1, 0.01);
+  EXPECT_NEAR(by_line.run.speed_m_s / by_leg.run.speed_m_s, 130 / 120.0, 0.01);
+}
+
+TEST_F(Verdicts, ACalibrationLineIsACheckWhereTheSizeIsGiven) {
+  Trajectory t = good();
+  t.calibration_line = line_of(2);  // the leg is 1.10 m
+  fit::FitOptions options;
+  options.leg_m = {0.85, 0.005};
+  options.size_given = true;
+  const Calibration by_leg = calibrate(t, model_, options);
+  EXPECT_FALSE(by_leg.scaled_by_line);
+  EXPECT_NEAR(130 * by_leg.run.metres_per_pixel, 1, 0.01);
+  EXPECT_THAT(by_leg.verdict.text(), HasSubstr("the leg is 1.10 m, the given one 0.85 m"));
+  EXPECT_FALSE(by_leg.verdict.refused);
+}
+
+TEST_F(Verdicts, ACalibrationLineThatNoRunnerFitsIsTold) {
+  Trajectory t = good();
+  t.calibration_line = line_of(2);
+  EXPECT_THAT(judge(t), HasSubstr("ok, but by the calibration line"));
+  t.calibration_line = line_of(8);  // the leg is 4.4 m
+  EXPECT_THAT(judge(t), testing::StartsWith("refused: by the calibration line"));
+}
+
 TEST_F(Verdicts, OneLegOnlyIsRefused) {
   Trajectory t = good();
   for (TrajectoryFrame& frame : t.frames) frame[BodyPart::knee_l] = {};

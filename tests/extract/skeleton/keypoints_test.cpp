@@ -23,6 +23,7 @@ Keypoints example() {
   k.treadmill = true;
   k.trim = FrameRange{3, 90};
   k.floor = FloorLine{{0, 300}, {639, 301.5}};
+  k.calibration_line = CalibrationLine{12, {100, 40.5}, {100, 240.5}, 1.5};
   k.notes = "windy";
   k.corrects_network = true;
   k.frames[5].time_s = 0.1;
@@ -51,6 +52,9 @@ TEST(Keypoints, ReadBackAsTheyWereSaved) {
   EXPECT_TRUE(k.corrects_network);
   EXPECT_EQ(k.trim->last, 90);
   EXPECT_EQ(k.floor->to_px, Eigen::Vector2d(639, 301.5));
+  EXPECT_EQ(k.calibration_line->frame, 12);
+  EXPECT_EQ(k.calibration_line->to_px, Eigen::Vector2d(100, 240.5));
+  EXPECT_DOUBLE_EQ(k.calibration_line->metres_per_pixel(), 0.0075);
   EXPECT_EQ(k.notes, "windy");
   ASSERT_EQ(k.frames.size(), 2u);
   EXPECT_EQ(k.frames.at(5)[BodyPart::pelvis]->p_px, Eigen::Vector2d(320.25, 180.5));

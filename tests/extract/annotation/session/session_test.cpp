@@ -238,6 +238,54 @@ TEST_F(Annotating, TakesFloorTrimSlowMotionAndNotes) {
   EXPECT_FALSE(session->done());
 }
 
+TEST_F(Annotating, TakesALineOfKnownLengthAsOneEdit) {
+  answer();
+  complete_frame(300);  // a leg of 4 x 40 px from pelvis to far ankle
+  session->go_to(0);
+  const auto draw_line = [&](double to_y_px, const std::string& length) {
+    key('\'');
+    click(100, 60);
+    click(100, to_y_px);
+    for (const char c : length) key(c);
+    key(annotation::key::kEnter);
+  };
+  draw_line(260, "1,5");
+  ASSERT_TRUE(session->keypoints().calibration_line) << session->message();
+  const CalibrationLine line = *session->keypoints().calibration_line;
+  EXPECT_EQ(line.frame, 0);
+  EXPECT_NEAR(line.metres_per_pixel(), 1.5 / 200, 1e-9);
+  EXPECT_THAT(session->message(), ::testing::HasSubstr("the leg is "));
+  EXPECT_EQ(session->keypoints().frames.size(), 1u);  // nothing was clicked beside it
+  EXPECT_THAT(read_file(annotation::journal_file_of(folder / "human.keypoints.json")),
+              ::testing::HasSubstr("calibration_line"));
+  key('u');
+  EXPECT_FALSE(session->keypoints().calibration_line);
+  key('r');
+  ASSERT_TRUE(session->keypoints().calibration_line);
+  session->rest();
+  EXPECT_EQ(load_keypoints(folder / "human.keypoints.json").calibration_line->length_m, 1.5);
+
+  // What cannot be is refused and leaves the line as it was.
+  for (const auto& [to_y_px, length] :
+       {std::pair{260.0, "0"}, {260.0, "-1"}, {260.0, "many"}, {260.0, "500"}, {260.0, "20"}}) {
+    draw_line(to_y_px, length);
+    EXPECT_TRUE(session->has_problem()) << length;
+    EXPECT_EQ(session->keypoints().calibration_line->length_m, 1.5) << length;
+    EXPECT_EQ(session->mode(), Mode::click);
+  }
+  key('\'');
+  click(100, 60);
+  click(105, 62);
+  EXPECT_THAT(session->message(), ::testing::HasSubstr("must be 10 px or more apart"));
+  EXPECT_EQ(session->mode(), Mode::length_to);
+  key(annotation::key::kEscape);
+  key('\'');
+  key(annotation::key::kBackspace);
+  EXPECT_FALSE(session->keypoints().calibration_line);
+  key('u');
+  EXPECT_TRUE(session->keypoints().calibration_line);
+}
+
 TEST_F(Annotating, EveryEditIsOnDiskWhenTheEventReturns) {
   answer();
   click(100, 50);
