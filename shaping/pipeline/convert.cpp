@@ -20,6 +20,7 @@
 #include "extract/io/outputs.h"
 #include "extract/pose/weights.h"
 #include "extract/skeleton/movement.h"
+#include "extract/tracking/time_check.h"
 #include "extract/video/overlay.h"
 #include "extract/video/repeated.h"
 
@@ -55,7 +56,8 @@ std::string left_out(const fs::path& file) {
 void say_whose_points(const fs::path& potential, const std::string& points) {
   auto json = nlohmann::ordered_json::parse(read_file(potential));
   json["source"]["points"] = points;
-  write_file_atomically(potential, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  write_file_atomically(
+      potential, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 /// One input and its intermediate results.
@@ -224,7 +226,9 @@ class Clip {
                                       {"rms_cm", result_.rms_cm},
                                       {"points", result_.points},
                                       {"verdict", result_.verdict}};
-    write_file_atomically(out(".converted.json"), json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_file_atomically(
+        out(".converted.json"),
+        json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
 
   fs::path input_;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# annotate_by_xdotool.sh STRIDE CLIP: answers the two questions, clicks three parts, zooms by the wheel, says x on the
-# last frame by the timeline and where playback stops, and quits, as a person would.
+# annotate_by_xdotool.sh STRIDE CLIP: answers the two questions, clicks three parts, draws a calibration line, zooms by the
+# wheel, says x on the last frame by the timeline and where playback stops, and quits, as a person would.
 # Ends with 77 where Xvfb or xdotool is missing.
 set -eu
 command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "no Xvfb or no xdotool"; exit 77; }
@@ -22,6 +22,10 @@ xdotool key Return; sleep 0.3
 xdotool mousemove 640 300; sleep 0.2; xdotool click 1; sleep 0.3
 xdotool mousemove 650 380; sleep 0.2; xdotool click 3; sleep 0.3
 xdotool key x; sleep 0.3
+xdotool key apostrophe; sleep 0.3
+xdotool mousemove 300 150; sleep 0.2; xdotool click 1; sleep 0.3
+xdotool mousemove 300 450; sleep 0.2; xdotool click 1; sleep 0.3
+xdotool type --delay 50 2.5; sleep 0.3; xdotool key Return; sleep 0.3
 xdotool mousemove 640 300; sleep 0.2; xdotool click 4; sleep 0.5
 xdotool mousemove 1262 720; sleep 0.2; xdotool click 1; sleep 0.3
 xdotool key x; sleep 0.3

@@ -38,7 +38,7 @@ else()
     message(FATAL_ERROR "exit ${code}: ${said}")
   endif()
   file(READ ${keypoints} made)
-  foreach(expected "\"direction\": \"right\"" "\"near_leg\": \"right\"" "\"pelvis\"" "\"knee_r\"" "\"estimated\"" "\"absent\""
+  foreach(expected "\"direction\": \"right\"" "\"near_leg\": \"right\"" "\"pelvis\"" "\"knee_r\"" "\"estimated\"" "\"absent\"" "\"length_m\": 2.5"
           "\"frame\": 95" "\"frame\": ([1-8]|9[0-4]|9,)")
     if(NOT made MATCHES ${expected})
       message(FATAL_ERROR "${expected} is not in ${made}")

@@ -71,13 +71,20 @@ TEST(AnnotationDocument, RefusesWhatTheFormatDoesNotAllowAndStaysAsItWas) {
 TEST(AnnotationDocument, ChangesSurviveTheirJson) {
   annotation::Change change = click(3, BodyPart::toe_l, 1.0 / 3);
   change.clicks.push_back({4, 0.2, BodyPart::head, std::nullopt});
-  change.settings = annotation::ClipSettings{
-      Facing::left, Side::right, 2.5, true, FrameRange{1, 9}, FloorLine{{0, 1}, {2, 3.25}},
-      "a \"note\""};
+  change.settings = annotation::ClipSettings{Facing::left,
+                                             Side::right,
+                                             2.5,
+                                             true,
+                                             FrameRange{1, 9},
+                                             FloorLine{{0, 1}, {2, 3.25}},
+                                             CalibrationLine{7, {1.5, 2}, {1.5, 102}, 0.75},
+                                             "a \"note\""};
   const annotation::Change back = annotation::change_of(annotation::line_of(change), "here");
   EXPECT_EQ(annotation::line_of(back), annotation::line_of(change));
   EXPECT_EQ(back.clicks[0].click->p_px.x(), 1.0 / 3);
   EXPECT_EQ(back.settings->trim->last, 9);
+  EXPECT_EQ(back.settings->calibration_line->frame, 7);
+  EXPECT_EQ(back.settings->calibration_line->length_m, 0.75);
   EXPECT_ERROR(annotation::change_of("{\"what\":1}", "here"),
                "here: not a line of an annotation journal");
   std::string damaged = annotation::line_of(change);

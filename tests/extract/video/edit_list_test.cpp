@@ -60,7 +60,7 @@ TEST(EditList, IsReadInBothWidths) {
 }
 
 TEST(EditList, OfAPlainRecordingSaysNothing) {
-  EXPECT_EQ(text_of({}), "");
+  EXPECT_EQ(text_of(std::vector<Edit>{}), "");
   EXPECT_EQ(text_of(edits_in(moov({{4, 0.083}}))), "");  // B-frames: it starts two frames on
   EXPECT_EQ(text_of(edits_in(moov({{0.02, -1}, {4, 0}}))), "");  // priming of the sound
   EXPECT_EQ(text_of(edits_in(moov({{1, 0}, {3, 1}}))), "");      // pieces that follow one another
