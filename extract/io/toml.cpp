@@ -12,6 +12,25 @@
 namespace stride {
 namespace {
 
+/// How many bytes of UTF-8 the letter at the start of a text has; 0: it is none.
+std::size_t letter_bytes(std::string_view text) {
+  const auto at = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned lead = at(0);
+  const std::size_t count = lead < 0x80                   ? 1
+                            : lead >= 0xc2 && lead < 0xe0 ? 2
+                            : lead >= 0xe0 && lead < 0xf0 ? 3
+                            : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                          : 0;
+  for (std::size_t i = 1; i < count; ++i)
+    if (at(i) < 0x80 || at(i) > 0xbf) return 0;
+  // Overlong forms, surrogates, and what lies beyond Unicode.
+  const bool none = (lead == 0xe0 && at(1) < 0xa0) || (lead == 0xed && at(1) > 0x9f) ||
+                    (lead == 0xf0 && at(1) < 0x90) || (lead == 0xf4 && at(1) > 0x8f);
+  return none ? 0 : count;
+}
+
 /// A value as text: numbers as the shortest that reads back as the same.
 std::string word_of(const toml::node& node, const std::string& source) {
   if (const auto* text = node.as_string()) return text->get();
@@ -65,14 +84,18 @@ std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& 
 
 std::string toml_text(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f)
+  while (!text.empty()) {
+    const std::size_t bytes = letter_bytes(text);
+    const auto code = static_cast<unsigned char>(text[0]);
+    if (bytes == 0)
+      quoted += "\xef\xbf\xbd";  // U+FFFD
+    else if (code < 0x20 || code == 0x7f)
       quoted += fmt::format("\\u{:04X}", code);
-    else if (c == '"' || c == '\\')
-      quoted += {'\\', c};
+    else if (code == '"' || code == '\\')
+      quoted += {'\\', text[0]};
     else
-      quoted += c;
+      quoted += text.substr(0, bytes);
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
   }
   return quoted + '"';
 }

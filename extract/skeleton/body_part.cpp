@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <ranges>
+#include <vector>
 
 #include "extract/io/error.h"
 
@@ -11,9 +11,11 @@ namespace stride {
 
 BodyPart body_part(std::string_view name) {
   const auto found = std::ranges::find(kBodyPartRows, name, &BodyPartRow::name);
-  require(found != kBodyPartRows.end(), "body part '{}': not known; use one of {}", name,
-          fmt::join(kBodyPartRows | std::views::transform(&BodyPartRow::name), ", "));
-  return found->part;
+  if (found != kBodyPartRows.end()) return found->part;
+  std::vector<std::string_view> names;
+  for (const BodyPartRow& row : kBodyPartRows) names.push_back(row.name);
+  throw Error(
+      fmt::format("body part '{}': not known; use one of {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace stride

@@ -62,7 +62,7 @@ void journal(std::string_view content) {
   fresh.height_px = 360;
   std::string recovered;
   {
-    const AnnotationJournal opened(file, fresh);
+    const annotation::AnnotationJournal opened(file, fresh);
     if (opened.recovered() > 0) recovered = text_of(opened.document().keypoints());
   }
   if (!recovered.empty()) check(text_of(load_keypoints(file)) == recovered);

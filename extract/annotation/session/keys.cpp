@@ -126,7 +126,7 @@ const std::vector<KeyHelp>& key_help() {
       {"wheel  z", "zoom at the mouse; z: 8 times and back. Middle button: pan"},
       {";  Tab", "zoom to the runner; play and stop"},
       {"o  p", "floor line: two clicks; from the standing feet"},
-      {"\' or |", "calibration line of known length: two clicks, then metres"},
+      {"'", "calibration line of known length: two clicks, then metres"},
       {"y  m  g", "slow-motion factor, treadmill, notes"},
       {"h e", "ask for hips, for the head too"},
       {"v", "ask again for direction and near leg"},

@@ -43,6 +43,7 @@ TEST(Toml, TextsReadBackAsTheSame) {
                                   std::string("line\nbreak\t\x7f"), std::string("ü 走 # x")})
     EXPECT_EQ(parse_toml("x = " + toml_text(text), "x")[0].words[0], text);
   EXPECT_EQ(toml_text("plain"), "\"plain\"");
+  EXPECT_EQ(parse_toml("x = " + toml_text("caf\xe9.mp4"), "x")[0].words[0], "caf\xef\xbf\xbd.mp4");
 }
 
 TEST(Toml, ErrorsNameTheLine) {

@@ -23,7 +23,7 @@ Keypoints example() {
   k.treadmill = true;
   k.trim = FrameRange{3, 90};
   k.floor = FloorLine{{0, 300}, {639, 301.5}};
-  k.calibration_line = CalibrationLine{12, {100, 40.5}, {100, 240.5}, 1.5};
+  k.calibration_line = CalibrationLine{7, {100, 40.5}, {100, 240.5}, 1.5};
   k.notes = "windy";
   k.corrects_network = true;
   k.frames[5].time_s = 0.1;
@@ -52,7 +52,7 @@ TEST(Keypoints, ReadBackAsTheyWereSaved) {
   EXPECT_TRUE(k.corrects_network);
   EXPECT_EQ(k.trim->last, 90);
   EXPECT_EQ(k.floor->to_px, Eigen::Vector2d(639, 301.5));
-  EXPECT_EQ(k.calibration_line->frame, 12);
+  EXPECT_EQ(k.calibration_line->frame, 7);
   EXPECT_EQ(k.calibration_line->to_px, Eigen::Vector2d(100, 240.5));
   EXPECT_DOUBLE_EQ(k.calibration_line->metres_per_pixel(), 0.0075);
   EXPECT_EQ(k.notes, "windy");
@@ -96,6 +96,8 @@ TEST(Keypoints, RefuseBadValuesByFileFramePartAndRule) {
   reject("320.25", "NaN", "a.keypoints.json: not valid JSON");
   reject("320.25", "null", "frame 5: pelvis: x = null: must be a number of pixels");
   reject("320.25", "1e999", "a.keypoints.json: not valid JSON");
+  reject("\"length_m\": 1.5", "\"length_m\": 0", "calibration_line: length 0 m: must be 0.05 to");
+  reject("240.5", "41.5", "calibration_line: 1.0 px long: must be 10 px or more");
   reject("\"estimated\"", "\"guessed\"", "frame 5: knee_l: state = guessed: must be seen");
   reject("\"frame\": 12", "\"frame\": 5", "frame 5 appears twice");
   reject("\"time_s\": 0.3", "\"time_s\": 0.05",
