@@ -6,7 +6,7 @@
 Names: each command does its work, writes what it should under that name and nothing else, and runs
 nothing. Files of another kind: exit 1 or 2, one sentence that begins with "error:", names the file
 and is no parser's talk; nothing is written. Codecs (needs ffmpeg): as many frames as were coded.
---quick takes one name of every odd sign, a third of the wrong files, and no codecs.
+--quick takes one name of every odd sign, a fifth of the wrong files, and no codecs.
 """
 import argparse, hashlib, itertools, json, os, pathlib, shutil, subprocess, sys, tempfile, zipfile
 
@@ -105,7 +105,7 @@ def names(folder, all_names):
             works(home, [], "info", f"./{at}{file}")
         works(home, [f"out/{at}{e}" for e in (".trajectory.csv", ".calibrated.csv", ".report.txt", ".report.svg",
                                               ".potential.json", ".converted.json")], "convert", v, "-o", "out")
-        works(home, [f"{at}.html"], "report", f"./{at}.trajectory.csv", "-o", f"./{at}.html")
+        works(home, [f"{at}.html"], "report", f"./{at}.trajectory.csv", "--video", v, "-o", f"./{at}.html")
         run = f"run {at}"
         status, said = stride(home, "train", "--preset", "demo", "--potential", f"out/{at}.potential.json", "--out", run,
                               "--decisions", "40")
@@ -159,7 +159,7 @@ def files(folder, human):
     home.mkdir()
     for name in ("small.mp4", "small.keypoints.json"):
         shutil.copy(SOURCE / "videos" / name, home)
-    for what, data in list(wrong_files(folder).items())[::3 if options.quick else 1]:
+    for what, data in list(wrong_files(folder).items())[::5 if options.quick else 1]:
         def as_(ending):
             target = home / f"wrong{ending}"
             if target.is_dir():
@@ -193,10 +193,8 @@ def files(folder, human):
                                 (".trajectory.csv", ["calibrate"]), (".trajectory.csv", ["report"]),
                                 (".potential.json", ["train", "--out", "run", "--potential"]), (".csv", ["track", "small.mp4", "--import"])):
             target = home / f"odd{ending}"
-            if target.is_symlink() or target.is_file():
-                target.unlink()
-            elif target.is_dir():
-                target.rmdir()
+            for old in home.glob("odd.*"):
+                old.rmdir() if old.is_dir() and not old.is_symlink() else old.unlink()
             if what == "a folder":
                 target.mkdir()
             elif what == "a link to itself":
