@@ -33,6 +33,10 @@ Trajectory marks_of(const imports::Detections& detections) {
   return marks;
 }
 
+/// Of the frames of a detector's points: more have a limb of another length than usual where the
+/// body is no person's.
+constexpr double kMostBroken = 0.6;
+
 /// A person's labels are sparse and correct; a detector's points are on most frames.
 bool are_labels(const Trajectory& marks) {
   const auto n = static_cast<int>(marks.frames.size());
@@ -307,7 +311,14 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   marks.width_px = info.width_px;
   marks.height_px = info.height_px;
   if (options.repair_legs && !labels) marks = repaired(marks);
-  if (!from_file && !labels) doubt_broken_limbs(marks, kDetectedNoise_legs);
+  if (!from_file && !labels) {
+    const int broken = doubt_broken_limbs(marks, kDetectedNoise_legs);
+    const auto frames = static_cast<int>(marks.frames.size());
+    require(broken <= kMostBroken * frames,
+            "{0}: what the pose network sees is no runner from the side: its thighs and shanks "
+            "change their length on {1} of {2} frames; click instead: stride annotate {0}",
+            file.string(), broken, frames);
+  }
   marks.direction = facing(marks);
   marks.video = file.filename().string();
   return labelled;

@@ -96,7 +96,7 @@ Places needed_px(const TrajectoryFrame& frame, const std::vector<Limb>& limbs,
 
 }  // namespace
 
-void doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
+int doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
   struct Known {
     Bone bone;
     std::vector<Length> lengths;
@@ -104,6 +104,7 @@ void doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
   std::vector<Known> known;
   for (const Bone& bone : kBones)
     if (is_limb(bone)) known.push_back({bone, lengths_of(points, bone)});
+  int broken = 0;
   for (TrajectoryFrame& frame : points.frames) {
     std::vector<Limb> limbs;
     double leg_px = 0;
@@ -119,13 +120,17 @@ void doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
       sd_px[i] = standard_deviation_legs * leg_px /
                  std::clamp(frame.points[i].confidence, kLeastConfidence, 1.0);
     const Places moved = needed_px(frame, limbs, sd_px);
+    bool is_broken = false;
     for (int i = 0; i < kBodyPartCount; ++i) {
       Point& point = frame.points[i];
       const double squared = moved.segment<2>(2 * i).squaredNorm() / (2 * sd_px[i] * sd_px[i]);
+      is_broken = is_broken || (point.present() && squared > 1);
       point.confidence =
           std::min(point.confidence, std::max(kLeastConfidence, point.confidence / (1 + squared)));
     }
+    broken += is_broken;
   }
+  return broken;
 }
 
 }  // namespace stride::tracking

@@ -37,7 +37,7 @@ Trajectory runner() {
 
 TEST(LimbLengths, LeaveABodyAlone) {
   Trajectory points = runner();
-  doubt_broken_limbs(points, kNoise_legs);
+  EXPECT_EQ(doubt_broken_limbs(points, kNoise_legs), 0);
   for (const TrajectoryFrame& frame : points.frames)
     for (const BodyPart part : kRequiredParts) EXPECT_NEAR(frame[part].confidence, 0.6, 1e-6);
 }
@@ -48,7 +48,7 @@ TEST(LimbLengths, TellWhichPointIsToBlame) {
   const Vector2d up = 0.4 * (frame[BodyPart::pelvis].p_px - frame[BodyPart::knee_r].p_px);
   frame[BodyPart::knee_r].p_px += up;
   const Trajectory before = points;
-  doubt_broken_limbs(points, kNoise_legs);
+  EXPECT_EQ(doubt_broken_limbs(points, kNoise_legs), 1);
   EXPECT_LT(frame[BodyPart::knee_r].confidence, 0.2);
   EXPECT_GT(frame[BodyPart::pelvis].confidence, 2 * frame[BodyPart::knee_r].confidence);
   EXPECT_GT(frame[BodyPart::ankle_r].confidence, frame[BodyPart::knee_r].confidence);
