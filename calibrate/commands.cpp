@@ -86,11 +86,8 @@ void run(const CalibrateCommand& command) {
   const std::string report = report::report_text(trajectory, model, result);
   write_file_atomically(files.text, report);
   fmt::print(stderr, "{}", report);
-  if (result.fit.ok && !command.no_picture)
+  if (result.ok() && !command.no_picture)
     report::draw_report(trajectory, model, result, video_of(command, trajectory), files.picture);
-  require(command.fitted.empty() || !result.aperiodic,
-          "--fitted {}: of a movement that repeats only; a {} does not", command.fitted.string(),
-          trajectory.movement);
   if (result.ok() && !command.overlay.empty()) {
     const fs::path video = video_of(command, trajectory);
     require(!video.empty(),

@@ -1,11 +1,19 @@
 #include "calibrate/fitted.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stride {
 namespace {
 
 constexpr int kPhases = 24;
+
+/// The confidence of a fitted part whose deviation from the pelvis is known.
+double confidence(double sd_px, double leg_px) {
+  const double relative = 30 * sd_px / leg_px;
+  return kPredictedConfidence / (1 + relative * relative);
+}
 
 /// Standard deviation of a part relative to the pelvis, over both coordinates, at equal steps of
 /// phase from the middle of the clip.
@@ -22,6 +30,49 @@ std::array<double, kPhases> sd_px(const fit::StrideFit& fit, const Directions& d
   std::array<double, kPhases> result;
   for (int i = 0; i < kPhases; ++i) result[i] = std::sqrt(sd.segment<2>(2 * i).squaredNorm() / 2);
   return result;
+}
+
+/// The same of a passage in one frame, from the covariance of limbs and control points.
+double sd_px(const aperiodic::PassageFit& fit, const Directions& directions, BodyPart part,
+             double u_s) {
+  constexpr double kStep = 1e-4;  // rad
+  const aperiodic::Passage& p = fit.passage;
+  const aperiodic::SplinePlace at = p.place(u_s);
+  const aperiodic::Angles angles = p.angles(u_s);
+  const Eigen::Vector2d here = aperiodic::about_pelvis(part, directions, p.limbs.data(), angles);
+  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(2, fit.covariance.rows());
+  for (int i = 0; i < aperiodic::limb::size; ++i) {
+    auto moved = p.limbs;
+    const double step = kStep * p.leg_px();
+    moved[static_cast<std::size_t>(i)] += step;
+    by.col(i) = (aperiodic::about_pelvis(part, directions, moved.data(), angles) - here) / step;
+  }
+  for (int a = 0; a < aperiodic::kAngles; ++a) {
+    aperiodic::Angles moved = angles;
+    moved[static_cast<std::size_t>(a)] += kStep;
+    const Eigen::Vector2d slope =
+        (aperiodic::about_pelvis(part, directions, p.limbs.data(), moved) - here) / kStep;
+    for (int j = 0; j < 4; ++j)
+      by.col(aperiodic::limb::size + aperiodic::kAngles * (at.first + j) + a) +=
+          at.weight[static_cast<std::size_t>(j)] * slope;
+  }
+  return std::sqrt(std::max(0.0, (by * fit.covariance * by.transpose()).trace() / 2));
+}
+
+Trajectory fitted_passage_px(Trajectory fitted, const Directions& directions,
+                             const Calibration& result) {
+  const aperiodic::PassageFit& fit = result.aperiodic->fit;
+  for (const BodyPart part : kBodyParts) {
+    const bool seen = result.observations.count[index(part)] > 0;
+    for (std::size_t i = 0; i < fitted.frames.size(); ++i) {
+      Point& point = fitted.frames[i][part];
+      if (!seen) point = {};
+      if (point.present())
+        point.confidence = confidence(sd_px(fit, directions, part, result.observations.u_s[i]),
+                                      fit.passage.leg_px());
+    }
+  }
+  return fitted;
 }
 
 }  // namespace
@@ -59,6 +110,7 @@ Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
   const fit::Marks& marks = result.observations;
   const Directions directions(model);
   Trajectory fitted = fitted_points(trajectory, model, result);
+  if (result.aperiodic) return fitted_passage_px(std::move(fitted), directions, result);
   for (const BodyPart part : kBodyParts) {
     const bool seen = marks.count[index(part)] > 0;
     const std::array<double, kPhases> sd = sd_px(fit, directions, part);
@@ -68,8 +120,7 @@ Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
       if (!point.present()) continue;
       const double phase = phase_at(fit.runner.cadence.data(), marks.u_s[i]);
       const auto nearest = std::lround(kPhases * (phase - std::floor(phase))) % kPhases;
-      const double relative = 30 * sd[static_cast<std::size_t>(nearest)] / leg_px(fit.runner);
-      point.confidence = kPredictedConfidence / (1 + relative * relative);
+      point.confidence = confidence(sd[static_cast<std::size_t>(nearest)], leg_px(fit.runner));
     }
   }
   return fitted;

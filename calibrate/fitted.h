@@ -13,7 +13,7 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
 ///
 ///     0.3 / (1 + (30 sd / leg)²),  sd of the part about the pelvis, leg: hip to ankle
 ///
-/// Needs `result.fit.ok`. `stride track --prior` reads it.
+/// Needs a fit that is ok. `stride track --prior` reads it.
 Trajectory fitted_px(const Trajectory& trajectory, const SagittalModel& model,
                      const Calibration& result);
 

@@ -1,5 +1,6 @@
 #include "calibrate/report/report_frames.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -16,24 +17,6 @@ namespace {
 
 const cv::Scalar kRight(34, 59, 214), kLeft(200, 110, 20), kMark(255, 255, 255), kEdge(30, 30, 30);
 constexpr int kSubpixelBits = 4;
-
-/// Index into Trajectory::frames of the frame nearest to each keyframe, near the middle of the clip
-/// if there are several.
-std::array<int, kReportKeyframes> nearest_frames(const Calibration& c) {
-  std::array<int, kReportKeyframes> nearest{};
-  const double* cadence = c.fit.runner.cadence.data();
-  for (int k = 0; k < kReportKeyframes; ++k) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < c.observations.u_s.size(); ++i) {
-      const double u = c.observations.u_s[i];
-      const double off =
-          phase_at(cadence, u) - c.gait.foot_strike - static_cast<double>(k) / kReportKeyframes;
-      const double cost = std::abs(off - std::round(off)) + 0.005 * std::abs(u);
-      if (cost < least) least = cost, nearest[k] = static_cast<int>(i);
-    }
-  }
-  return nearest;
-}
 
 /// One tile: a window of the frame around the pelvis, and its transform.
 class Tile {
@@ -90,6 +73,35 @@ void draw_runner(const TrajectoryFrame& fitted, const TrajectoryFrame& labelled,
 
 }  // namespace
 
+std::vector<int> keyframes_of_stride(const Calibration& c) {
+  std::vector<int> nearest(kReportKeyframes);
+  const double* cadence = c.fit.runner.cadence.data();
+  for (int k = 0; k < kReportKeyframes; ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < c.observations.u_s.size(); ++i) {
+      const double u = c.observations.u_s[i];
+      const double off =
+          phase_at(cadence, u) - c.gait.foot_strike - static_cast<double>(k) / kReportKeyframes;
+      const double cost = std::abs(off - std::round(off)) + 0.005 * std::abs(u);
+      if (cost < least) least = cost, nearest[static_cast<std::size_t>(k)] = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+std::vector<int> keyframes_of_passage(const Trajectory& trajectory) {
+  const std::vector<TrajectoryFrame>& frames = trajectory.frames;
+  const double first_s = frames.front().time_s, last_s = frames.back().time_s;
+  std::vector<int> nearest;
+  for (int k = 0; k < kReportKeyframes; ++k) {
+    const double at_s = std::lerp(first_s, last_s, static_cast<double>(k) / (kReportKeyframes - 1));
+    const auto found = std::ranges::min_element(
+        frames, {}, [&](const TrajectoryFrame& frame) { return std::abs(frame.time_s - at_s); });
+    nearest.push_back(static_cast<int>(found - frames.begin()));
+  }
+  return nearest;
+}
+
 std::filesystem::path video_in(const std::filesystem::path& folder, const Trajectory& trajectory) {
   if (trajectory.video.empty()) return {};
   const auto file = folder / std::filesystem::path(trajectory.video).filename();
@@ -98,13 +110,14 @@ std::filesystem::path video_in(const std::filesystem::path& folder, const Trajec
 }
 
 std::string keyframe_strip(const std::filesystem::path& video, const Trajectory& trajectory,
-                           const SagittalModel& model, const Calibration& c, int width_px,
-                           int height_px) {
+                           const SagittalModel& model, const Calibration& c,
+                           const std::vector<int>& shown, int width_px, int height_px) {
   constexpr double kShown = 2.5;  // legs from top to bottom
   constexpr int kGap = 4;
-  const std::array<int, kReportKeyframes> shown = nearest_frames(c);
   std::multimap<int, int> by_frame;  // number of the frame in the video → keyframe
-  for (int k = 0; k < kReportKeyframes; ++k) by_frame.emplace(trajectory.frames[shown[k]].frame, k);
+  for (int k = 0; k < kReportKeyframes; ++k)
+    by_frame.emplace(
+        trajectory.frames[static_cast<std::size_t>(shown[static_cast<std::size_t>(k)])].frame, k);
 
   const Trajectory fitted = fitted_points(trajectory, model, c);
   cv::Mat strip(height_px, width_px, CV_8UC3, cv::Scalar(255, 255, 255));
@@ -115,10 +128,13 @@ std::string keyframe_strip(const std::filesystem::path& video, const Trajectory&
     require(decoder.read(frame), "{}: frame {} cannot be read", video.string(),
             by_frame.begin()->first);
     for (auto [it, end] = by_frame.equal_range(frame.index); it != end; it = by_frame.erase(it)) {
-      const int k = it->second, i = shown[k];
+      const int k = it->second;
+      const auto i = static_cast<std::size_t>(shown[static_cast<std::size_t>(k)]);
       const Eigen::Vector2d pelvis =
-          fit::image_px(trajectory, c.observations.to_left, c.fit.pelvis_px[i]);
-      Tile tile(frame.image, pelvis, height_px / (kShown * leg_px(c.fit.runner)),
+          fit::image_px(trajectory, c.observations.to_left,
+                        (c.aperiodic ? c.aperiodic->fit.passage.pelvis_px : c.fit.pelvis_px)[i]);
+      const double leg = c.aperiodic ? c.aperiodic->fit.passage.leg_px() : leg_px(c.fit.runner);
+      Tile tile(frame.image, pelvis, height_px / (kShown * leg),
                 strip(cv::Rect(k * (tile_px + kGap), 0, tile_px, height_px)));
       draw_runner(fitted.frames[i], trajectory.frames[i], c.observations.to_left, tile);
     }

@@ -1,6 +1,5 @@
-// The picture of the report, drawn by gnuplot from data in the script.
+// The picture of the report of a stride, drawn by gnuplot from data in the script.
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
@@ -10,36 +9,15 @@
 #include "calibrate/gait/human_running.h"
 #include "calibrate/report/report.h"
 #include "calibrate/report/report_frames.h"
-#include "extract/io/error.h"
+#include "calibrate/report/report_plot.h"
 #include "extract/io/file.h"
 #include "extract/io/gnuplot.h"
 
 namespace stride::report {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-// The picture, and the strip of frames in it.
-constexpr int kWidth_px = 1100, kHeight_px = 1180;
-constexpr int kStripLeft_px = 20, kStripTop_px = 42, kStrip_px = 1060, kStripHeight_px = 196;
-
-/// A block of data of a gnuplot script.
-class Block {
- public:
-  explicit Block(const std::string& name) : text_(fmt::format("${} << EOD\n", name)) {}
-  template <typename... Numbers>
-  void row(Numbers... numbers) {
-    ((text_ += std::isnan(static_cast<double>(numbers))
-                   ? "? "
-                   : fmt::format("{:.6g} ", static_cast<double>(numbers))),
-     ...);
-    text_ += "\n";
-  }
-  void gap() { text_ += "\n"; }
-  std::string end() { return text_ + "EOD\n"; }
-
- private:
-  std::string text_;
-};
+// The picture.
+constexpr int kHeight_px = 1180;
 
 constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
                                           BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l};
@@ -147,18 +125,6 @@ std::string angles(const Calibration& c) {
   return mean.end() + band.end();
 }
 
-constexpr const char* kStyle = R"(
-set encoding utf8
-set style line 1 lc rgb '#c23b22' lw 1.8
-set style line 2 lc rgb '#1f5fa8' lw 1.8
-set style line 3 lc rgb '#555555' lw 1.8
-set style fill solid 1 noborder
-set border 3 lc rgb '#999999'
-set tics nomirror scale 0.5 textcolor rgb '#444444'
-set grid ytics lc rgb '#eeeeee' lt 1
-set multiplot
-)";
-
 /// The model at the keyframes, if there is no video.
 constexpr const char* kPoses = R"(
 unset key; unset tics; unset border; unset grid
@@ -213,52 +179,29 @@ std::string part_panels() {
   return text;
 }
 
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and the zero that OpenSSL adds
-  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                  reinterpret_cast<const unsigned char*>(bytes.data()),
-                  static_cast<int>(bytes.size()));
-  text.pop_back();
-  return text;
-}
-
 }  // namespace
 
 void draw_report(const Trajectory& trajectory, const SagittalModel& model, const Calibration& c,
                  const std::filesystem::path& video, const std::filesystem::path& file) {
+  if (c.aperiodic) return draw_passage(trajectory, model, c, video, file);
   const Directions directions(model);
-  std::string script =
-      fmt::format("set terminal svg size {},{} background rgb 'white' font 'DejaVu Sans,11'\n{}",
-                  kWidth_px, kHeight_px, kStyle);
-  int label = 0;
-  const auto write = [&](const std::string& text, double x, double y, const char* how) {
-    script += fmt::format("set label {} {} at screen {},{} {} noenhanced\n", ++label,
-                          gnuplot_string(text), x, y, how);
-  };
-  const std::string title = fmt::format(
-      "{}: stride {:.3f} ± {:.3f} s, {:.2f} m/s, {} harmonics, {:.2f} px rms ({:.1f} cm)",
-      trajectory.video, c.run.period_s, 1.96 * c.run.period_sd_s, c.run.speed_m_s, c.fit.harmonics,
-      c.fit.rms_px, 100 * c.run.rms_m);
-  write(title, 0.02, 0.985, "font ',13'");
-  write("bands: 95 %; points: marks; grey: measured runners at 3.8 to 4 m/s", 0.98, 0.985,
-        "right font ',10' textcolor rgb '#777777'");
+  Labels labels;
+  std::string script = page_style(kHeight_px);
+  labels.title(
+      fmt::format(
+          "{}: stride {:.3f} ± {:.3f} s, {:.2f} m/s, {} harmonics, {:.2f} px rms ({:.1f} cm)",
+          trajectory.video, c.run.period_s, 1.96 * c.run.period_sd_s, c.run.speed_m_s,
+          c.fit.harmonics, c.fit.rms_px, 100 * c.run.rms_m),
+      "bands: 95 %; points: marks; grey: measured runners at 3.8 to 4 m/s");
   for (int k = 0; k < kReportKeyframes; ++k)
-    write(fmt::format("{:.0f} %", 100.0 * k / kReportKeyframes),
-          (kStripLeft_px + (k + 0.5) * kStrip_px / kReportKeyframes) / kWidth_px, 0.789,
-          "center textcolor rgb '#444444'");
+    labels.below_frame(k, fmt::format("{:.0f} %", 100.0 * k / kReportKeyframes), kHeight_px);
+  script += labels.text();
   for (const BodyPart part : kTraced) script += marks(c, part) + curves(c, directions, part);
   script += poses(c) + angles(c) + (video.empty() ? kPoses : "") + kTime;
   script += "unset label\n";
   script += part_panels() + kAngles;
-  std::string svg = run_gnuplot(script);
-  const std::size_t end = svg.rfind("</svg>");
-  if (!video.empty() && end != std::string::npos)
-    svg.insert(end, fmt::format("<image x='{}' y='{}' width='{}' height='{}' "
-                                "href='data:image/jpeg;base64,{}'/>\n",
-                                kStripLeft_px, kStripTop_px, kStrip_px, kStripHeight_px,
-                                base64(keyframe_strip(video, trajectory, model, c, 2 * kStrip_px,
-                                                      2 * kStripHeight_px))));
-  write_file_atomically(file, svg);
+  write_file_atomically(
+      file, with_strip(run_gnuplot(script), video, trajectory, model, c, keyframes_of_stride(c)));
 }
 
 }  // namespace stride::report

@@ -27,6 +27,27 @@ elseif(CASE STREQUAL "offscreen")
   if(NOT code EQUAL 124)
     message(FATAL_ERROR "the window did not stay: exit ${code}, said: ${error}")
   endif()
+  # The movement is kept with the clicks, and an unknown one is refused.
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=offscreen timeout 4 ${STRIDE} annotate ${clip} --movement jump
+                  RESULT_VARIABLE code ERROR_VARIABLE error)
+  if(NOT code EQUAL 124)
+    message(FATAL_ERROR "the window did not stay: exit ${code}, said: ${error}")
+  endif()
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=offscreen ${STRIDE} annotate ${clip} --movement crawl
+                  RESULT_VARIABLE code ERROR_VARIABLE error)
+  if(NOT code EQUAL 1 OR NOT error MATCHES "--movement = 'crawl': must be one of run")
+    message(FATAL_ERROR "exit ${code}, said: ${error}")
+  endif()
+  # A window that is ended leaves its edits in the journal; the next one takes them over.
+  file(GLOB kept ${FOLDER}/${stem}.keypoints.json*)
+  set(said "")
+  foreach(file ${kept})
+    file(READ ${file} text)
+    string(APPEND said "${text}")
+  endforeach()
+  if(NOT said MATCHES "\"movement\": *\"jump\"")
+    message(FATAL_ERROR "no movement in ${kept}: ${said}")
+  endif()
 else()
   execute_process(COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/annotate_by_xdotool.sh ${STRIDE} ${clip} RESULT_VARIABLE code
                   OUTPUT_VARIABLE said ERROR_VARIABLE said)

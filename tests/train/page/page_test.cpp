@@ -5,6 +5,7 @@
 #include <regex>
 #include <set>
 
+#include "extract/annotation/labelled_clip.h"
 #include "extract/io/data_file.h"
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
@@ -57,6 +58,19 @@ TEST(Page, OfARunTellsDistanceGaitAndCurve) {
   EXPECT_NE(html.find("data:video/mp4"), std::string::npos);
   EXPECT_NE(html.find("data:image/svg+xml"), std::string::npos);
   EXPECT_NE(html.find("action_repeat = 3"), std::string::npos);
+}
+
+TEST(Page, OfAJumpShowsTheFlight) {
+  const TemporaryFolder folder;
+  const std::filesystem::path video = data_file("videos/jump.mp4");
+  const std::filesystem::path clicks = data_file("videos/jump.keypoints.json");
+  save(tracking::track(video, tracking::clicks_on(video, clicks, 0)).trajectory,
+       folder / "jump.trajectory.csv");
+  const std::string html = page_of(folder / "jump.trajectory.csv", video);
+  expect_self_contained(html);
+  for (const char* part : {"<p class=\"verdict\">Verdict: ok.</p>", "<h2>The flight</h2>",
+                           "take-off forward", "data:image/svg+xml", "do not count"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 TEST(Page, OfAnExperimentHasItsTablesAndFigures) {

@@ -104,6 +104,23 @@ TEST_F(Annotating, AsksForThePartsInTurnAndGoesOnToTheNextPhaseFrame) {
   EXPECT_EQ(session->asked(), BodyPart::pelvis);
 }
 
+TEST_F(Annotating, OfAJumpTheHeadIsAskedForToo) {
+  annotation::ClipSettings settings;
+  settings.movement = "jump";
+  journal->apply({"a jump", {}, settings});
+  session = std::make_unique<annotation::AnnotationSession>(*journal, frames);
+  answer();
+  for (int part = 0; part < 7; ++part) {
+    EXPECT_NE(session->asked(), BodyPart::head);
+    click(50 + 30 * part, 100);
+  }
+  EXPECT_EQ(session->frame(), 0);
+  EXPECT_EQ(session->asked(), BodyPart::head);
+  click(300, 40);
+  EXPECT_GT(session->frame(), 0);
+  EXPECT_EQ(session->keypoints().movement, "jump");
+}
+
 TEST_F(Annotating, TellsSeenEstimatedAndAbsentApart) {
   answer();
   click(100, 50);

@@ -1,0 +1,68 @@
+#include "calibrate/report/report_plot.h"
+
+#include <openssl/evp.h>
+
+#include "calibrate/report/report_frames.h"
+#include "extract/io/gnuplot.h"
+
+namespace stride::report {
+namespace {
+
+constexpr const char* kStyle = R"(
+set encoding utf8
+set style line 1 lc rgb '#c23b22' lw 1.8
+set style line 2 lc rgb '#1f5fa8' lw 1.8
+set style line 3 lc rgb '#555555' lw 1.8
+set style fill solid 1 noborder
+set border 3 lc rgb '#999999'
+set tics nomirror scale 0.5 textcolor rgb '#444444'
+set grid ytics lc rgb '#eeeeee' lt 1
+set multiplot
+)";
+
+std::string base64(const std::string& bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and the zero that OpenSSL adds
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()),
+                  static_cast<int>(bytes.size()));
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void Labels::write(const std::string& text, double x, double y, const char* how) {
+  script_ += fmt::format("set label {} {} at screen {},{} {} noenhanced\n", ++count_,
+                         gnuplot_string(text), x, y, how);
+}
+
+void Labels::title(const std::string& text, const std::string& aside) {
+  write(text, 0.02, 0.985, "font ',13'");
+  write(aside, 0.98, 0.985, "right font ',10' textcolor rgb '#777777'");
+}
+
+void Labels::below_frame(int k, const std::string& text, int height_px) {
+  constexpr int kBelow_px = kStripTop_px + kStripHeight_px + 11;
+  write(text, (kStripLeft_px + (k + 0.5) * kStrip_px / kReportKeyframes) / kWidth_px,
+        1 - static_cast<double>(kBelow_px) / height_px, "center textcolor rgb '#444444'");
+}
+
+std::string page_style(int height_px) {
+  return fmt::format("set terminal svg size {},{} background rgb 'white' font 'DejaVu Sans,11'\n{}",
+                     kWidth_px, height_px, kStyle);
+}
+
+std::string with_strip(std::string svg, const std::filesystem::path& video,
+                       const Trajectory& trajectory, const SagittalModel& model,
+                       const Calibration& c, const std::vector<int>& frames) {
+  const std::size_t end = svg.rfind("</svg>");
+  if (video.empty() || end == std::string::npos) return svg;
+  svg.insert(end, fmt::format("<image x='{}' y='{}' width='{}' height='{}' "
+                              "href='data:image/jpeg;base64,{}'/>\n",
+                              kStripLeft_px, kStripTop_px, kStrip_px, kStripHeight_px,
+                              base64(keyframe_strip(video, trajectory, model, c, frames,
+                                                    2 * kStrip_px, 2 * kStripHeight_px))));
+  return svg;
+}
+
+}  // namespace stride::report
