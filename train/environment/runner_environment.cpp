@@ -5,6 +5,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/random.h"
+#include "extract/skeleton/movement.h"
 #include "train/simulation/engine/runner_layout.h"
 #include "train/simulation/make_engine.h"
 
@@ -149,6 +150,9 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
     finite = std::isfinite(action[i]);
     excitations[i] = std::clamp(action[i], 0.0, 1.0);
   }
+  if (movement(options_.task.movement).legs == Legs::together)  // one decision for both
+    std::copy_n(excitations.begin(), simulation::kMusclesOfLeg,
+                excitations.begin() + simulation::kMusclesOfLeg);
   const double x_before = engine_->state().q[simulation::kPelvisX];
   if (finite) {
     report_ = engine_->advance(excitations, competition::kStep_s);

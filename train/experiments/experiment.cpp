@@ -14,6 +14,7 @@
 #include "train/evaluation/evaluate.h"
 #include "train/experiments/experiment_report.h"
 #include "train/ppo/train_run.h"
+#include "train/task/milestone.h"
 #include "train/training/runner_factory.h"
 #include "train/training/thread_pool.h"
 
@@ -133,9 +134,11 @@ void write_report(const std::vector<Job>& jobs, const ExperimentOptions& options
   copy_runs(jobs, options.report);
   const ExperimentFile& experiment = options.experiment;
   const std::vector<Arm> arms = arms_of(jobs, experiment);
-  write_file_atomically(
-      options.report / "results.md",
-      experiment_report(experiment, results_of(arms, experiment.decisions), options.command));
+  write_file_atomically(options.report / "results.md",
+                        experiment_report(experiment,
+                                          results_of(arms, experiment.decisions,
+                                                     task::milestone_m(experiment.task().name)),
+                                          options.command));
   for (const std::string& against : {experiment.against(), std::string("wall")})
     plot(arms, {.against = against, .out = options.report / against});
 }
@@ -167,6 +170,9 @@ std::string verdict_row(const fs::path& file) {
   if (jobs.empty()) return row + " 0 | | | not run yet |\n";
   const std::vector<Arm> arms = arms_of(jobs, experiment);
   const Verdict verdict = verdict_on(claim, results_of(arms, experiment.decisions));
+  if (!std::isfinite(verdict.ratio.ratio) && std::isfinite(verdict.difference.low_m))
+    return row + fmt::format(" {} | {} m more | | {} |\n", verdict.pairs,
+                             difference_text(verdict.difference, 2), verdict.word);
   if (!std::isfinite(verdict.ratio.ratio))
     return row + fmt::format(" {} | too few seeds | | {} |\n", verdict.pairs, verdict.word);
   return row + fmt::format(" {} | {} | {:.2f} … {:.2f} | {} |\n", verdict.pairs,

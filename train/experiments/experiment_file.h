@@ -50,6 +50,12 @@ struct ExperimentFile {
   std::filesystem::path clip;       // empty: none
   std::vector<ExperimentArm> arms;  // in the order of the file
 
+  /// What the agents of all arms are to do.
+  const task::TaskOptions& task() const {
+    static const task::TaskOptions kRun;
+    return arms.empty() ? kRun : arms.front().train.environment.task;
+  }
+
   /// What the arms' curves are drawn against: "decisions", or "simulated" if they have other
   /// budgets.
   std::string against() const {

@@ -1,9 +1,12 @@
 #include "train/experiments/experiment_report.h"
+#include "train/task/milestone.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -12,6 +15,7 @@
 #include "extract/io/file.h"
 #include "extract/io/random.h"
 #include "extract/io/table.h"
+#include "extract/skeleton/movement.h"
 
 namespace stride::experiments {
 namespace {
@@ -105,19 +109,34 @@ std::string gait_table(const std::vector<ArmResult>& results) {
   return text;
 }
 
-std::string claim_text(const ExperimentFile& experiment, const std::vector<ArmResult>& results) {
+std::string claim_text(const ExperimentFile& experiment, const std::vector<ArmResult>& results,
+                       int digits) {
   const ExperimentClaim& claim = experiment.claim;
   const Verdict verdict = verdict_on(claim, results);
-  if (!std::isfinite(verdict.ratio.ratio))
-    return fmt::format("Claim: {}.\n\n**{}**: no interval; the pairs of seeds are too few: {}.\n\n",
-                       claim.text, verdict.word, verdict.pairs);
-  return fmt::format(
-      "Claim: {}.\n\n**{}**: {} over {} after {:.0f} k decisions {} over {} pairs of seeds, "
-      "bootstrap {:.2f} … {:.2f}; a ratio of {:.2f} would have been told from 1.\n\n",
-      claim.text, verdict.word, claim.better, claim.than,
-      claim.at * static_cast<double>(experiment.decisions) / 1000, ratio_text(verdict.ratio),
-      verdict.pairs, verdict.ratio.bootstrap_low, verdict.ratio.bootstrap_high,
-      verdict.ratio.detectable());
+  const std::string after = fmt::format(
+      "after {:.0f} k decisions", claim.at * static_cast<double>(experiment.decisions) / 1000);
+  std::string text = fmt::format("Claim: {}.\n\n**{}**: ", claim.text, verdict.word);
+  if (std::isfinite(verdict.ratio.ratio))
+    return text + fmt::format(
+                      "{} over {} {} {} over {} pairs of seeds, bootstrap {:.2f} … {:.2f}; a ratio "
+                      "of {:.2f} would have been told from 1.\n\n",
+                      claim.better, claim.than, after, ratio_text(verdict.ratio), verdict.pairs,
+                      verdict.ratio.bootstrap_low, verdict.ratio.bootstrap_high,
+                      verdict.ratio.detectable());
+  if (std::isfinite(verdict.difference.low_m))
+    return text + fmt::format("{} less {} {} {} m over {} pairs of seeds.\n\n", claim.better,
+                              claim.than, after, difference_text(verdict.difference, digits),
+                              verdict.pairs);
+  return text + fmt::format("no interval; the pairs of seeds are too few: {}.\n\n", verdict.pairs);
+}
+
+/// If every arm has a ratio to the first one at the end.
+bool have_ratios(const std::vector<ArmResult>& results) {
+  return std::ranges::all_of(results, [&](const ArmResult& arm) {
+    const auto &own = arm.distance_m.back(), &first = results.front().distance_m.back();
+    return std::isfinite(paired_ratio(own, first).ratio) ||
+           !std::isfinite(paired_difference(own, first).low_m);
+  });
 }
 
 std::string reached_text(const std::vector<std::optional<Reached>>& seeds) {
@@ -165,6 +184,11 @@ std::string ratio_text(const PairedRatio& r) {
   return fmt::format("{:.2f} ({:.2f} … {:.2f})", r.ratio, r.low, r.high);
 }
 
+std::string difference_text(const PairedDifference& d, int digits) {
+  if (!std::isfinite(d.low_m)) return "–";
+  return fmt::format("{0:.{3}f} ({1:.{3}f} … {2:.{3}f})", d.mean_m, d.low_m, d.high_m, digits);
+}
+
 double distance_at(const Table& curve, double decisions, double window) {
   const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
   std::vector<double> values;
@@ -177,7 +201,8 @@ double distance_at(const Table& curve, double decisions, double window) {
   return values.empty() ? last : mean(values);
 }
 
-std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions) {
+std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t decisions,
+                                  double milestone_m) {
   std::vector<ArmResult> results;
   for (const Arm& arm : arms) {
     const auto budget = static_cast<double>(arm.decisions > 0 ? arm.decisions : decisions);
@@ -189,8 +214,9 @@ std::vector<ArmResult> results_of(const std::vector<Arm>& arms, std::int64_t dec
       for (std::size_t k = 0; k < kBudgetShares.size(); ++k)
         result.distance_m[k].push_back(
             distance_at(curve, kBudgetShares[k] * budget, kWindowShare * budget));
-      for (std::size_t k = 0; k < kDistances_m.size(); ++k)
-        result.reached[k].push_back(first_reached(curve, timing, kDistances_m[k]));
+      for (std::size_t k = 0; k < kMilestones; ++k)
+        result.reached[k].push_back(
+            first_reached(curve, timing, milestone_m * static_cast<double>(k + 1)));
       result.mean_distance_m.push_back(mean_of_column(curve, "evaluation_distance_m"));
       result.gait.push_back(gait_of(run));
     }
@@ -212,6 +238,18 @@ PairedRatio paired_ratio(const std::vector<double>& treated, const std::vector<d
           std::exp(mean(logs) + half_width), std::exp(low), std::exp(high)};
 }
 
+PairedDifference paired_difference(const std::vector<double>& treated,
+                                   const std::vector<double>& control) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(treated.size(), control.size()); ++i)
+    differences.push_back(treated[i] - control[i]);
+  if (differences.size() < 2 || !std::isfinite(mean(differences))) return {NAN, NAN, NAN};
+  const double m = mean(differences),
+               half_width = student_95(differences.size() - 1) * standard_deviation(differences) /
+                            std::sqrt(static_cast<double>(differences.size()));
+  return {m, m - half_width, m + half_width};
+}
+
 Verdict verdict_on(const ExperimentClaim& claim, const std::vector<ArmResult>& results) {
   const auto better = std::ranges::find(results, claim.better, &ArmResult::label);
   const auto than = std::ranges::find(results, claim.than, &ArmResult::label);
@@ -220,57 +258,77 @@ Verdict verdict_on(const ExperimentClaim& claim, const std::vector<ArmResult>& r
           "the claim compares {} with {}: there are no results of them", claim.better, claim.than);
   const auto k = static_cast<std::size_t>(share - kBudgetShares.begin());
   Verdict verdict{.ratio = paired_ratio(better->distance_m[k], than->distance_m[k]),
+                  .difference = paired_difference(better->distance_m[k], than->distance_m[k]),
                   .pairs = better->distance_m[k].size(),
                   .word = "undecided"};
-  if (verdict.ratio.low > 1) verdict.word = "holds";
-  if (verdict.ratio.high < 1) verdict.word = "the opposite holds";
+  const bool by_ratio = std::isfinite(verdict.ratio.ratio);
+  if (by_ratio ? verdict.ratio.low > 1 : verdict.difference.low_m > 0) verdict.word = "holds";
+  if (by_ratio ? verdict.ratio.high < 1 : verdict.difference.high_m < 0)
+    verdict.word = "the opposite holds";
   return verdict;
 }
 
 std::string experiment_report(const ExperimentFile& experiment,
                               const std::vector<ArmResult>& results, const std::string& command) {
+  const task::TaskOptions& task = experiment.task();
+  const double milestone_m = task::milestone_m(task.name);
+  const int digits = milestone_m < 1 ? 2 : 1;
+  std::string measure(task::measure_of(task.name));
+  measure[0] = static_cast<char>(std::toupper(measure[0]));
   const auto at = [&experiment](double share) {
     return fmt::format("{:.0f} k", share * static_cast<double>(experiment.decisions) / 1000);
   };
   std::string text = fmt::format("# {}\n\n    {}\n\n", experiment.title, command);
-  if (!experiment.claim.text.empty()) text += claim_text(experiment, results);
+  if (!experiment.claim.text.empty()) text += claim_text(experiment, results, digits);
   text += fmt::format(
-      "Distance in 10 s (m) without noise, mean ± standard error over {} seeds, after so many "
+      "{} (m) without noise, mean ± standard error over {} seeds, after so many "
       "decisions (evaluations of the twentieth of the budget before; of an arm with another "
       "budget after the same share of it):\n\n",
-      results.front().distance_m[0].size());
-  text += table(results, 0, kBudgetShares, at, [](const ArmResult& arm, std::size_t k) {
-    return plus_minus(arm.distance_m[k], 1);
+      measure, results.front().distance_m[0].size());
+  text += table(results, 0, kBudgetShares, at, [digits](const ArmResult& arm, std::size_t k) {
+    return plus_minus(arm.distance_m[k], digits);
   });
-  text += fmt::format("\nRatio to {}, geometric mean over paired seeds with 95 % interval:\n\n",
-                      results.front().label);
-  text += table(results, 1, kBudgetShares, at, [&results](const ArmResult& arm, std::size_t k) {
-    return ratio_text(paired_ratio(arm.distance_m[k], results.front().distance_m[k]));
+  const bool ratios = have_ratios(results);
+  text +=
+      ratios
+          ? fmt::format("\nRatio to {}, geometric mean over paired seeds with 95 % interval:\n\n",
+                        results.front().label)
+          : fmt::format("\nDifference to {}, m, mean over paired seeds with 95 % interval:\n\n",
+                        results.front().label);
+  text += table(results, 1, kBudgetShares, at, [&](const ArmResult& arm, std::size_t k) {
+    const auto &own = arm.distance_m[k], &first = results.front().distance_m[k];
+    return ratios ? ratio_text(paired_ratio(own, first))
+                  : difference_text(paired_difference(own, first), digits);
   });
   text += "\nFirst evaluation that reached so far, in decisions and wall clock:\n\n";
+  std::array<double, kMilestones> milestones_m{};
+  for (std::size_t k = 0; k < kMilestones; ++k)
+    milestones_m[k] = milestone_m * static_cast<double>(k + 1);
   text += table(
-      results, 0, kDistances_m, [](double d) { return fmt::format("{:.0f} m", d); },
+      results, 0, milestones_m, [](double d) { return fmt::format("{:g} m", d); },
       [](const ArmResult& arm, std::size_t k) { return reached_text(arm.reached[k]); });
   text += "\nMean over the whole curve, m:\n\n";
   for (const ArmResult& arm : results)
-    text += fmt::format("- {}: {}\n", arm.label, plus_minus(arm.mean_distance_m, 1));
+    text += fmt::format("- {}: {}\n", arm.label, plus_minus(arm.mean_distance_m, digits));
   const bool evaluated = std::ranges::any_of(results, [](const ArmResult& arm) {
     return std::ranges::any_of(
         arm.gait, [](const GaitFigures& gait) { return std::isfinite(gait.duty_factor); });
   });
-  if (evaluated)
-    text += "\nHow they run at the end (½: legs in turn, 0: at once):\n\n" + gait_table(results);
+  if (evaluated && movement(task.movement).repeats)
+    text += fmt::format("\nHow they {} at the end (½: legs in turn, 0: at once):\n\n",
+                        task.movement == "walk" ? "walk" : "run") +
+            gait_table(results);
   text += "\nEach seed at the end, m, and their standard deviation:\n\n";
   for (const ArmResult& arm : results) {
     text += fmt::format("- {}:", arm.label);
-    for (const double d : arm.distance_m.back()) text += fmt::format(" {:.1f}", d);
+    for (const double d : arm.distance_m.back()) text += fmt::format(" {:.{}f}", d, digits);
     if (arm.distance_m.back().size() > 1)
-      text += fmt::format("; {:.1f}", standard_deviation(arm.distance_m.back()));
+      text += fmt::format("; {:.{}f}", standard_deviation(arm.distance_m.back()), digits);
     text += "\n";
   }
-  return text +
-         fmt::format("\n![distance against {0}]({0}.png)\n\n![against wall clock](wall.png)\n",
-                     experiment.against());
+  return text + fmt::format("\n![{} against {}]({}.png)\n\n![against wall clock](wall.png)\n",
+                            task.name == "distance" ? "distance" : task::measure_of(task.name),
+                            experiment.against(), experiment.against());
 }
 
 }  // namespace stride::experiments

@@ -139,10 +139,10 @@ std::string experiment_page(const fs::path& given) {
   std::string title = fs::absolute(given / "").lexically_normal().parent_path().filename().string();
   if (results.starts_with("# ")) title = results.substr(2, results.find('\n') - 2);
   std::string body;
-  for (const auto& [name, caption] :
-       {std::pair{"decisions",
-                  "Distance in 10 s against decisions, mean ± standard error over seeds."},
-        std::pair{"wall", "The same against wall clock."}})
+  for (const auto& [name, caption] : {std::pair{"decisions",
+                                                "Against decisions, mean ± standard error over "
+                                                "seeds; what is measured stands at the axis."},
+                                      std::pair{"wall", "The same against wall clock."}})
     if (fs::exists(folder / fmt::format("{}.svg", name)))
       body += picture(data_uri(folder / fmt::format("{}.svg", name)), caption);
   body += markdown(results);

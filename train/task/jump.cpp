@@ -22,7 +22,7 @@ class Jump : public Task {
   }
 
   void start(const Moment& first) override {
-    airborne_s_ = standing_s_ = measure_m_ = 0;
+    airborne_s_ = standing_s_ = measure_m_ = paid_m_ = flight_m_ = flown_m_ = 0;
     landed_ = false;
     left_ = place(first);
     start_x_m_ = left_.foremost_ankle_m;
@@ -38,7 +38,7 @@ class Jump : public Task {
     const auto& q = moment.state.q;
     if (q[simulation::kPelvisY] < kFallHeight_m ||
         std::abs(q[simulation::kPelvisTilt]) > kFallTilt_rad)
-      outcome = {outcome.reward, End::fall};
+      outcome = {outcome.reward - flown_m_, End::fall};
     if (outcome.end == End::fall) measure_m_ = 0;
     return outcome;
   }
@@ -87,9 +87,14 @@ class Jump : public Task {
     if (!flew) {  // another flight before it stood: the next landing counts
       take_off_ = left_;
       landed_ = false;
+      flight_m_ = 0;
       begin_flight();
     }
-    if (counts()) outcome.reward += gain_m(moment);
+    if (!counts()) return;
+    flight_m_ += gain_m(moment);
+    const double farther_m = std::max(0.0, flight_m_ - flown_m_);  // many hops are paid once
+    flown_m_ += farther_m;
+    outcome.reward += farther_m;
   }
 
   void touch(const Moment& moment, const std::array<bool, 2>& down, Outcome& outcome) {
@@ -107,9 +112,12 @@ class Jump : public Task {
     }
     if (!lands_on(touched_)) return;
     standing_s_ += moment.step_s;
+    const double stood = std::min(1.0, standing_s_ / kStand_s);
+    const double earned_m = std::max(0.0, size_m()) * stood * stood;
+    outcome.reward += std::max(0.0, earned_m - paid_m_);
+    paid_m_ = std::max(paid_m_, earned_m);
     if (standing_s_ < kStand_s - 1e-9) return;
     measure_m_ = std::max(0.0, size_m());
-    outcome.reward += measure_m_;
     outcome.end = End::done;
   }
 
@@ -118,6 +126,8 @@ class Jump : public Task {
   double start_x_m_ = 0;
   Place left_, take_off_;  // when a foot was last on the ground; when the flight began
   double airborne_s_ = 0, standing_s_ = 0, measure_m_ = 0;
+  double flight_m_ = 0;              // what this flight is worth
+  double paid_m_ = 0, flown_m_ = 0;  // for standing and for flight so far
   bool landed_ = false;
   std::array<bool, 2> touched_{};  // since the landing
   std::array<double, 2> landing_x_m_{};

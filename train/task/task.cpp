@@ -5,6 +5,7 @@
 
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
+#include "train/task/milestone.h"
 #include "train/task/tasks.h"
 
 namespace stride::task {
@@ -12,17 +13,17 @@ namespace {
 
 struct Row {
   std::string_view name, measure;
-  double time_limit_s;
+  double time_limit_s, milestone_m;
   std::unique_ptr<Task> (*make)(const TaskOptions&, const osim::Model&);
 };
 
 constexpr std::array kTasks{
-    Row{"distance", "distance in 10 s", 10, &distance},
-    Row{"speed", "distance in 10 s, less what was too fast", 10, &speed},
-    Row{"walk", "distance in 10 s on foot, less what was too fast", 10, &walk},
-    Row{"long-jump", "length of the jump", 3, &long_jump},
-    Row{"high-jump", "height of the flight", 3, &high_jump},
-    Row{"hop", "length of the hop", 3, &hop},
+    Row{"distance", "distance in 10 s", 10, 5, &distance},
+    Row{"speed", "distance in 10 s, less what was too fast", 10, 2, &speed},
+    Row{"walk", "distance in 10 s on foot, less what was too fast", 10, 2, &walk},
+    Row{"long-jump", "length of the jump", 3, 0.2, &long_jump},
+    Row{"high-jump", "height of the flight", 3, 0.1, &high_jump},
+    Row{"hop", "length of the hop", 3, 0.2, &hop},
 };
 
 const Row& row(std::string_view name) {
@@ -40,6 +41,8 @@ std::unique_ptr<Task> make_task(const TaskOptions& options, const osim::Model& m
 }
 
 double time_limit_s(std::string_view task) { return row(task).time_limit_s; }
+
+double milestone_m(std::string_view task) { return row(task).milestone_m; }
 
 std::string_view measure_of(std::string_view task) { return row(task).measure; }
 

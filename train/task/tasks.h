@@ -20,9 +20,10 @@ std::unique_ptr<Task> speed(const TaskOptions& options, const osim::Model& model
 std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model);
 
 /// A jump from standing: both feet leave the ground within half a metre of the start, and after
-/// both have landed the runner does not fall for 0.5 s. Reward in flight: the pelvis' way forward;
-/// at the end the length: from the foremost ankle at take-off to where the rearmost ankle touched
-/// down. Measure: the length, 0 without that end.
+/// both have landed the runner does not fall for 0.5 s. Reward in flight: the pelvis' way forward,
+/// which a fall takes back; in the 0.5 s after it, the more the later, the length; of several jumps
+/// the best alone. The length: from the foremost ankle at take-off to where the rearmost ankle
+/// touched down. Measure: the length, 0 without that end.
 std::unique_ptr<Task> long_jump(const TaskOptions& options, const osim::Model& model);
 
 /// A jump onto the right foot: after the landing the left one does not touch the ground for the 0.5

@@ -209,6 +209,20 @@ TEST_P(Runner, StartsOnAReferenceMotionWithItsSpeeds) {
   EXPECT_GT(phases.size(), 5u);
 }
 
+TEST_P(Runner, WhereLegsMoveTogetherTheLeftOneIsGivenTheRightOnesExcitations) {
+  environment::RunnerOptions of_jump = options();
+  of_jump.task = task::task_of("jump", "movement");
+  environment::RunnerEnvironment environment(model_, of_jump);
+  environment.reset(0);
+  Eigen::VectorXd action = Eigen::VectorXd::Zero(simulation::kMuscles);
+  action.head(simulation::kMusclesOfLeg).setConstant(0.7);
+  for (int i = 0; i < 20; ++i) environment.step(action);
+  const simulation::RunnerState& state = environment.engine().state();
+  for (int i = 0; i < simulation::kMusclesOfLeg; ++i)
+    EXPECT_NEAR(state.activation[i], state.activation[simulation::kMusclesOfLeg + i], 1e-9);
+  EXPECT_NEAR(state.q[simulation::kHipRight], state.q[simulation::kHipLeft], 1e-6);
+}
+
 TEST_P(Runner, PoseIsRelativeToThePelvis) {
   environment::RunnerEnvironment environment(model_, options());
   const Eigen::VectorXd observation = environment.reset(0);

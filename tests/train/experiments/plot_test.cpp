@@ -157,11 +157,48 @@ TEST(Experiment, AVerdictNeedsAnIntervalThatExcludesOne) {
   EXPECT_EQ(verdict({5, 5, 6, 5, 4}).word, "the opposite holds");
   EXPECT_EQ(verdict({20, 5, 14, 9, 10}).word, "undecided");
   EXPECT_EQ(verdict({-1, 5, 14, 9, 10}).word, "undecided") << "no ratio";
-  const auto [ratio, pairs, word] = verdict({20, 23, 24, 19, 18});
+  const auto [ratio, difference, pairs, word] = verdict({20, 23, 24, 19, 18});
   EXPECT_EQ(pairs, 5u);
+  EXPECT_NEAR(difference.mean_m, 10.4, 1e-9);
   EXPECT_GT(ratio.bootstrap_low, ratio.low) << "five pairs: Student's is the wider one";
   EXPECT_LT(ratio.bootstrap_high, ratio.high);
   EXPECT_NEAR(ratio.detectable(), ratio.ratio / ratio.low, 1e-12);
+}
+
+TEST(Experiment, WhereTheControlIsNothingTheDifferenceDecides) {
+  const auto word = [](const std::vector<double>& better) {
+    return experiments::verdict_on({.text = "b jumps farther", .better = "b", .than = "a"},
+                                   {ended_at("a", {0, 0, 0.1, 0, 0}), ended_at("b", better)})
+        .word;
+  };
+  EXPECT_EQ(word({0.5, 0.6, 0.55, 0.4, 0.5}), "holds");
+  EXPECT_EQ(word({0, 0, 0.9, 0, 0}), "undecided");
+  const experiments::PairedDifference spread = experiments::paired_difference({1, 3}, {0, 0});
+  EXPECT_NEAR(spread.mean_m, 2, 1e-12);  // t(1) = 12.7062, s/√2 = 1
+  EXPECT_NEAR(spread.high_m, 2 + 12.7062, 1e-4);
+  EXPECT_TRUE(std::isnan(experiments::paired_difference({1}, {1}).low_m));
+}
+
+TEST(Experiment, OfJumpsSpeaksOfTheirLength) {
+  experiments::ExperimentFile experiment = named("Jumps", 10'000);
+  experiment.claim = {.text = "b jumps farther", .better = "b", .than = "a"};
+  experiments::ExperimentArm arm;
+  arm.name = "a";
+  arm.train.environment.task.movement = "jump";
+  arm.train.environment.task.name = "long-jump";
+  arm.train.run.decisions = 10'000;
+  experiment.arms = {arm};
+  std::vector<experiments::ArmResult> results{ended_at("a", {0, 0, 0}),
+                                              ended_at("b", {0.5, 0.6, 0.7})};
+  for (experiments::ArmResult& each : results)
+    for (std::size_t k = 0; k + 1 < each.distance_m.size(); ++k) each.distance_m[k] = {0, 0, 0};
+  const std::string text = experiments::experiment_report(experiment, results, "");
+  for (const char* expected :
+       {"Length of the jump (m) without noise", "**holds**: b less a after 10 k decisions 0.60 (",
+        "Difference to a, m, mean over paired seeds", "| 0.2 m | 0.4 m |",
+        "- b: 0.50 0.60 0.70; 0.10", "![length of the jump against decisions]"})
+    EXPECT_THAT(text, ::testing::HasSubstr(expected));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("istance")));
 }
 
 TEST(Experiment, RatioOverPairedSeedsHasStudentsInterval) {

@@ -131,6 +131,40 @@ TEST(Task, OfAJumpIsNothingWithoutALandingThatIsStood) {
   EXPECT_EQ(puppet.task_->measure_m(), 0);
 }
 
+TEST(Task, OfManyHopsTheBestAloneIsPaid) {
+  Puppet puppet("long-jump");
+  for (int hop = 0; hop < 3; ++hop) {
+    puppet.stand(false, false);
+    puppet.advance(10, 0.01);  // 0.06 m of it after the first 0.04 s
+    puppet.stand(true, true);
+    puppet.advance(5);
+  }
+  EXPECT_NEAR(puppet.reward_, 0.06, 1e-9);
+}
+
+TEST(Task, OfAJumpAFallTakesTheFlightBack) {
+  Puppet puppet("long-jump");
+  puppet.stand(false, false);
+  puppet.advance(30, 0.03);
+  EXPECT_GT(puppet.reward_, 0.7);
+  puppet.state_.q[simulation::kPelvisTilt] = -1.3;
+  puppet.stand(true, false);
+  EXPECT_EQ(puppet.advance(1), End::fall);
+  EXPECT_NEAR(puppet.reward_, 0, 1e-9);
+}
+
+TEST(Task, OfAJumpIsPaidTheMoreTheLongerItStands) {
+  Puppet puppet("long-jump");
+  puppet.stand(false, false);
+  puppet.advance(30);
+  puppet.put_ankles(0.8, 0.8);
+  puppet.stand(true, true);
+  puppet.advance(25);
+  EXPECT_NEAR(puppet.reward_, 0.8 * 0.25, 1e-9);
+  EXPECT_EQ(puppet.advance(25), End::done);
+  EXPECT_NEAR(puppet.reward_, 0.8, 1e-9);
+}
+
 TEST(Task, OfAJumpIsNothingWhereTheRunnerTipsOver) {
   Puppet puppet("long-jump");
   puppet.stand(false, false);
