@@ -29,7 +29,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Request {
+struct AnnotateRequest {
   fs::path video, keypoints, script, import_from;
   std::string movement;  // empty: as the clicks say, or run
   std::vector<int> window{1280, 860};
@@ -68,7 +68,7 @@ Keypoints fresh_keypoints(const fs::path& video, const video::VideoInfo& info) {
 }
 
 /// The network's points, which the clicks will correct. The document says so from now on.
-tracking::LabelledClip points_to_correct(const Request& request, video::FrameStore& frames,
+tracking::LabelledClip points_to_correct(const AnnotateRequest& request, video::FrameStore& frames,
                                          annotation::AnnotationJournal& journal) {
   tracking::PointsOptions options;
   options.landmarks = request.pose.model;
@@ -97,7 +97,7 @@ tracking::LabelledClip points_to_correct(const Request& request, video::FrameSto
 
 /// Adds the points of another program or a user's network as clicks where there are none, as one
 /// undoable edit.
-void import_clicks(const Request& request, video::FrameStore& frames,
+void import_clicks(const AnnotateRequest& request, video::FrameStore& frames,
                    annotation::AnnotationJournal& journal) {
   const bool by_model = request.pose.wanted;
   const fs::path& from = by_model ? request.pose.model : request.import_from;
@@ -232,7 +232,7 @@ void run_window(annotation::AnnotationSession& session, annotation::BackgroundTr
   cv::destroyAllWindows();
 }
 
-void run(Request request) {
+void run(AnnotateRequest request) {
   if (request.keys) {
     fmt::print("| keys | |\n|---|---|\n");
     for (const annotation::KeyHelp& help : annotation::key_help())
@@ -292,7 +292,7 @@ void run(Request request) {
 }  // namespace
 
 void add_annotate_command(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<AnnotateRequest>();
   CLI::App& command = *app.add_subcommand(
       "annotate",
       "click keypoints on a video and watch them being tracked (? in the window: help)");

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t kFewestFrames = 8;
 
-struct Request {
+struct TrackRequest {
   fs::path video, keypoints, import_from, export_to, out, overlay, prior, score;
   std::string movement;               // empty: as the keypoints say
   std::optional<double> slow_motion;  // else as the keypoints say
@@ -60,7 +60,7 @@ struct NetworkProgress {
   }
 };
 
-bool is_detected(const Request& request) {
+bool is_detected(const TrackRequest& request) {
   return !request.import_from.empty() || request.pose.is_users();
 }
 
@@ -78,7 +78,7 @@ std::string others(const imports::Detections& detections) {
 }
 
 /// The points of another program or a pose network on the frames of the video.
-tracking::LabelledClip detected(const Request& request) {
+tracking::LabelledClip detected(const TrackRequest& request) {
   require(request.import_from.empty() || !request.pose.wanted,
           "--import {} and --pose {}: give one of them", request.import_from.string(),
           request.pose.model.string());
@@ -98,7 +98,7 @@ tracking::LabelledClip detected(const Request& request) {
 }
 
 /// Clicks or, where there are none, the points of the pose network.
-tracking::LabelledClip clicked_or_seen(const Request& request) {
+tracking::LabelledClip clicked_or_seen(const TrackRequest& request) {
   tracking::PointsOptions options;
   options.keypoints = request.keypoints;
   options.slow_motion = request.slow_motion.value_or(0);
@@ -147,12 +147,12 @@ FileKind exported_kind(const fs::path& file) {
   return extension == ".trc" ? FileKind::trc : FileKind::missing;
 }
 
-fs::path trajectory_file(const Request& request) {
+fs::path trajectory_file(const TrackRequest& request) {
   if (!request.out.empty() || !request.export_to.empty()) return request.out;
   return fs::path(request.video).replace_extension(".trajectory.csv");
 }
 
-void check_files(const Request& request) {
+void check_files(const TrackRequest& request) {
   check_outputs({request.video, request.keypoints, keypoints_file_of(request.video),
                  request.import_from, request.prior, request.score, request.pose.model},
                 {{"-o", trajectory_file(request), FileKind::trajectory},
@@ -160,7 +160,7 @@ void check_files(const Request& request) {
                  {"--export", request.export_to, exported_kind(request.export_to)}});
 }
 
-void run(Request request) {
+void run(TrackRequest request) {
   check_files(request);
   if (!request.score.empty()) {
     fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
@@ -210,7 +210,7 @@ void run(Request request) {
 }  // namespace
 
 void add_track_command(CLI::App& app) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TrackRequest>();
   CLI::App& command = *app.add_subcommand(
       "track", "propagate clicks, or a pose network's points, through every frame of a video");
   command.add_option("VIDEO", request->video, "the video")->required();

@@ -26,10 +26,6 @@ std::vector<Word> options_of(const CLI::App& app) {
   return words;
 }
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
-}
-
 std::string joined(const std::vector<Word>& words) {
   std::string text;
   for (const Word& word : words) text += (text.empty() ? "" : " ") + word.text;

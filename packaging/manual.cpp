@@ -47,7 +47,7 @@ std::string spelling(const CLI::Option& option) {
   return type.empty() || option.get_positional() ? names : names + " " + type;
 }
 
-std::string options_of(const CLI::App& app) {
+std::string described_options(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
     text += fmt::format(
@@ -61,11 +61,11 @@ std::string options_of(const CLI::App& app) {
   return text;
 }
 
+}  // namespace
+
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
 }
-
-}  // namespace
 
 std::string manual_page(const CLI::App& app, const std::string& name, const std::string& version) {
   const auto commands = commands_of(app);
@@ -85,7 +85,7 @@ std::string manual_page(const CLI::App& app, const std::string& name, const std:
       text += fmt::format(".TP\n.BR {}\\-{} (1)\n{}\n", roff(name), roff(command->get_name()),
                           roff(command->get_description()));
   }
-  text += ".SH OPTIONS\n" + options_of(app);
+  text += ".SH OPTIONS\n" + described_options(app);
   if (commands.empty()) return text + ".SH SEE ALSO\n.BR stride (1)\n";
   return text +
          ".SH ENVIRONMENT\n.TP\n.B STRIDE_DATA\nFolder of models, presets, agents and clips; "

@@ -2,12 +2,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
 }
 
 namespace stride::packaging {
+
+/// The commands that --help lists.
+std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
 /// The manual page of a command, in roff, made of what --help says. `name` is "stride" or
 /// "stride-train"; `version` stands in its foot.

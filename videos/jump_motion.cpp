@@ -6,11 +6,11 @@
 
 #include "extract/io/data_file.h"
 #include "extract/io/table.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::videos {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180;
 constexpr double kTurned_deg[2] = {-10.3, -2.3};  // of the ankles in standing
 constexpr double kRaised_m = 0.026;               // sole of the shoe instead of the bare figure's
 constexpr double kOnGround_m = 0.012;             // a shoe below that bends, and is on the ground
@@ -38,11 +38,11 @@ JumpMotion::JumpMotion(const Proportions& proportions) : proportions_(proportion
   for (const std::vector<double>& row : table.rows) {
     Row& own = rows_.emplace_back();
     const auto of = [&](const char* column) { return row[table.column(column)]; };
-    own = {of("time_s"), of("pelvis_x"), of("pelvis_y") + kRaised_m, kRad * of("pelvis_tilt")};
-    own.hip_flexion = {kRad * of("hip_flexion_r"), kRad * of("hip_flexion_l")};
-    own.knee_angle = {kRad * of("knee_angle_r"), kRad * of("knee_angle_l")};
-    own.ankle_angle = {kRad * (of("ankle_angle_r") + kTurned_deg[0]),
-                       kRad * (of("ankle_angle_l") + kTurned_deg[1])};
+    own = {of("time_s"), of("pelvis_x"), of("pelvis_y") + kRaised_m, kDegree * of("pelvis_tilt")};
+    own.hip_flexion = {kDegree * of("hip_flexion_r"), kDegree * of("hip_flexion_l")};
+    own.knee_angle = {kDegree * of("knee_angle_r"), kDegree * of("knee_angle_l")};
+    own.ankle_angle = {kDegree * (of("ankle_angle_r") + kTurned_deg[0]),
+                       kDegree * (of("ankle_angle_l") + kTurned_deg[1])};
   }
   constexpr double kStep_s = 1e-3;
   const double highest_s = std::ranges::max_element(rows_, {}, &Row::height_m)->time_s;
@@ -89,8 +89,8 @@ Skeleton JumpMotion::skeleton(double time_s) const {
   const double elbows =
       by_eye({{0, 12}, {0.5, 15}, {0.7, 45}, {0.9, 25}, {1.3, 35}, {1.8, 12}}, time_s);
   for (int side : {0, 1}) {
-    posture.upper_arm[side] = kRad * (arms + (side == 0 ? 2 : -2));
-    posture.elbow[side] = kRad * elbows;
+    posture.upper_arm[side] = kDegree * (arms + (side == 0 ? 2 : -2));
+    posture.elbow[side] = kDegree * elbows;
   }
   return stand(posture, proportions_, row.x_m, row.height_m);
 }

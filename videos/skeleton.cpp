@@ -3,13 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "extract/skeleton/units.h"
+
 namespace stride::videos {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRad = std::numbers::pi / 180;
 constexpr double kMidStance = 0.16, kMidFlight = 0.42;  // phases of a run
 
 /// `length` from hanging straight down, turned forward by `angle`.
@@ -61,18 +62,18 @@ Skeleton pose(const GaitCurves& gait, const Proportions& p, double phase, double
               double pelvis_height_m, const Deviation& deviation) {
   Posture posture;
   posture.phase = phase - std::floor(phase);
-  posture.pelvis_tilt = kRad * gait.pelvis_tilt_deg(phase);
-  posture.trunk_lean = kRad * gait.trunk_lean_deg(phase);
+  posture.pelvis_tilt = kDegree * gait.pelvis_tilt_deg(phase);
+  posture.trunk_lean = kDegree * gait.trunk_lean_deg(phase);
   posture.stretch = 1 - gait.squash * std::cos(4 * std::numbers::pi * (phase - kMidStance));
   for (int side : {0, 1}) {
     const double own = phase + 0.5 * side, sign = side == 0 ? 1 : -1;
-    posture.hip_flexion[side] = kRad * gait.hip_flexion_deg(own) + deviation.hip[side];
-    posture.knee_angle[side] = kRad * gait.knee_angle_deg(own) + deviation.knee[side];
-    posture.ankle_angle[side] = kRad * gait.ankle_angle_deg(own) + deviation.ankle[side];
+    posture.hip_flexion[side] = kDegree * gait.hip_flexion_deg(own) + deviation.hip[side];
+    posture.knee_angle[side] = kDegree * gait.knee_angle_deg(own) + deviation.knee[side];
+    posture.ankle_angle[side] = kDegree * gait.ankle_angle_deg(own) + deviation.ankle[side];
     posture.hip_offset[side] = {sign * gait.hip_swing_m * std::cos(2 * std::numbers::pi * phase),
                                 sign * gait.hip_drop_m * std::sin(2 * std::numbers::pi * phase)};
-    posture.upper_arm[side] = kRad * gait.shoulder_deg(own);
-    posture.elbow[side] = kRad * gait.elbow_deg(own);
+    posture.upper_arm[side] = kDegree * gait.shoulder_deg(own);
+    posture.elbow[side] = kDegree * gait.elbow_deg(own);
     posture.shoulder_back_m[side] = gait.shoulder_swing_m * std::cos(2 * std::numbers::pi * own);
   }
   return stand(posture, p, x_m, pelvis_height_m);

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::aperiodic {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLifted = 0.03;  // of a leg: a foot that high is off the ground
 constexpr double kShortestFlight_s = 0.1;
 

@@ -13,11 +13,11 @@
 #include "calibrate/fit/solver/problem.h"
 #include "calibrate/fit/solver/residuals.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::aperiodic {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kKnots_s{0.30, 0.22, 0.16, 0.12, 0.09};
 
 struct Problem {

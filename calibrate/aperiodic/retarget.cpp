@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/skeleton/units.h"
+
 namespace stride::aperiodic {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kGravity_m_s2 = 9.81;
 
 /// The model's coordinates at a time, pelvis_tx and pelvis_ty 0.
 CalibratedSample pose_at(const Angles& angles, double roll_rad, const SagittalModel& model) {

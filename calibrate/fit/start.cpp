@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "calibrate/fit/solver/noise.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::fit {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Sets the pelvis of every frame to the median over its points, so one outlier has no effect.
 void place_pelvis(const FitProblem& problem, StrideFit& fit) {

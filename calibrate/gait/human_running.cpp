@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "extract/io/data_file.h"
 #include "extract/io/table.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::gait {
 
@@ -24,9 +24,8 @@ HumanRunning load_human_running() {
     return values;
   };
   const auto joint = [&](const std::string& name) {
-    const double degree = std::numbers::pi / 180;
-    return HumanRunning::Joint{column(name + "_mean", degree), column(name + "_low", degree),
-                               column(name + "_high", degree)};
+    return HumanRunning::Joint{column(name + "_mean", kDegree), column(name + "_low", kDegree),
+                               column(name + "_high", kDegree)};
   };
   return {column("percent", 0.01), joint("hip"), joint("knee"), joint("ankle")};
 }

@@ -10,6 +10,7 @@
 #include "calibrate/fit/ground_slope.h"
 #include "extract/io/statistics.h"
 #include "extract/skeleton/movement.h"
+#include "extract/skeleton/units.h"
 #include "extract/tracking/time_check.h"
 
 namespace stride::gait {
@@ -226,7 +227,7 @@ double apparent_gravity(const fit::StrideFit& fit) {
                                 (w.head<2>().dot(fit.vertical_oscillation.c.head<2>()) +
                                  4 * w.tail<2>().dot(fit.vertical_oscillation.c.tail<2>())));
   }
-  return -least / 9.81;
+  return -least / kGravity_m_s2;
 }
 
 /// What no runner does.

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "calibrate/gait/human_running.h"
 #include "calibrate/osim/storage.h"
 #include "extract/io/file.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::report {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Intervals of the stride in which an angle is outside the range of measured runners.
 std::string outside_band(const fit::StrideFit& fit, const gait::Gait& gait) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "calibrate/gait/human_running.h"
 #include "calibrate/report/report.h"
@@ -12,6 +11,7 @@
 #include "calibrate/report/report_plot.h"
 #include "extract/io/file.h"
 #include "extract/io/gnuplot.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::report {
 namespace {

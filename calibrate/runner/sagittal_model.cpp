@@ -1,14 +1,12 @@
 #include "calibrate/runner/sagittal_model.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "extract/io/error.h"
+#include "extract/skeleton/units.h"
 
 namespace stride {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Eigen::Vector2d flat(const osim::Vec3& p) { return {p[0], p[1]}; }
 

@@ -9,7 +9,7 @@
 namespace stride::pose {
 namespace {
 
-constexpr const char* kCure =
+constexpr const char* kOnnxCure =
     "export it with fixed shapes and opset 11, without its last layers if need be, or run it "
     "elsewhere and --import its points (extract/pose/README.md)";
 
@@ -21,11 +21,11 @@ std::string reason(const cv::Exception& error) {
 
 /// From pixels of the input to pixels of the image: the region in the middle of the input, as
 /// large as fits.
-struct Crop {
+struct Letterbox {
   double image_px = 1;  // a pixel of the input
   Eigen::Vector2d middle_px, input_middle_px;
 
-  Crop(const cv::Rect2d& region, const PoseSidecar& s)
+  Letterbox(const cv::Rect2d& region, const PoseSidecar& s)
       : image_px(std::max(region.width / s.width_px, region.height / s.height_px)),
         middle_px(region.x + region.width / 2, region.y + region.height / 2),
         input_middle_px((s.width_px - 1) / 2.0, (s.height_px - 1) / 2.0) {}
@@ -36,7 +36,7 @@ struct Crop {
 };
 
 /// The normalised crop, 1 × 3 × height × width.
-cv::Mat input_of(const cv::Mat& bgr, const Crop& crop, const PoseSidecar& s) {
+cv::Mat input_of(const cv::Mat& bgr, const Letterbox& crop, const PoseSidecar& s) {
   const Eigen::Vector2d first = crop.in_image({0, 0});
   const cv::Matx23d to_image(crop.image_px, 0, first.x(), 0, crop.image_px, first.y());
   cv::Mat image = bgr;
@@ -80,7 +80,7 @@ PoseNetwork::PoseNetwork(const std::filesystem::path& onnx, PoseSidecar sidecar)
     net_ = cv::dnn::readNetFromONNX(file_);
   } catch (const cv::Exception& error) {
     throw Error(fmt::format("{}: OpenCV {} cannot read it ({}); {}", file_, CV_VERSION,
-                            reason(error), kCure));
+                            reason(error), kOnnxCure));
   }
   require(!net_.empty(), "{}: is an empty network", file_);
   check_itself();
@@ -101,7 +101,7 @@ std::vector<cv::Mat> PoseNetwork::run(const cv::Mat& input) {
   } catch (const cv::Exception& error) {
     throw Error(fmt::format("{}: OpenCV {} cannot run it on an input of 1 × 3 × {} × {} ({}); {}",
                             file_, CV_VERSION, sidecar_.height_px, sidecar_.width_px, reason(error),
-                            kCure));
+                            kOnnxCure));
   }
 }
 
@@ -114,11 +114,11 @@ void PoseNetwork::check_itself() {
             "{}: the self-check failed: value {} of {} is {:.6g}, {} says {:.6g} ± {}: OpenCV {} "
             "reads this network wrongly, or the sidecar is another network's; {}",
             file_, k, expected.size(), found[k], sidecar_.file, expected[k],
-            sidecar_.check_tolerance, CV_VERSION, kCure);
+            sidecar_.check_tolerance, CV_VERSION, kOnnxCure);
 }
 
 std::vector<PosePerson> PoseNetwork::find(const cv::Mat& bgr, const cv::Rect2d& region) {
-  const Crop crop(region, sidecar_);
+  const Letterbox crop(region, sidecar_);
   const std::vector<cv::Mat> outputs = run(input_of(bgr, crop, sidecar_));
   const cv::Size input_px(sidecar_.width_px, sidecar_.height_px);
   const auto keypoints = static_cast<int>(sidecar_.keypoints.size());

@@ -26,7 +26,7 @@ std::vector<Point> points_of(const PosePerson& person, double min_confidence) {
 
 /// Moves the box onto the middle of the points' extent. Its size stays, since limbs that are bent
 /// or not found make nobody smaller.
-void follow(const std::vector<Point>& points, cv::Rect2d& box) {
+void move_to(const std::vector<Point>& points, cv::Rect2d& box) {
   constexpr int kFewest = 3;
   int seen = 0;
   Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
@@ -77,7 +77,7 @@ imports::Detections pose_points(const std::filesystem::path& video, const PoseOp
         network.find(frame.image, box ? grown(*box, sidecar.padding) : whole);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const std::vector<Point> points = points_of(found[i], sidecar.min_confidence);
-      if (i == 0 && box) follow(points, *box);
+      if (i == 0 && box) move_to(points, *box);
       imports::DetectedPerson person{frame.index, "", map.parts(points)};
       if (std::ranges::any_of(person.points, &Point::present)) content.people.push_back(person);
     }

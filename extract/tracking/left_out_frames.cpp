@@ -19,8 +19,8 @@ constexpr double kLeastLeap_legs = 0.04;
 constexpr std::size_t kFewestJoints = 4;
 constexpr int kFewestMissing = 3;  // frames without points at the end of the video
 constexpr int kFewestCompared = 24;
-constexpr double kLeastFollow = 0.4, kGain = 0.2;  // of a number of frames that is believed
-constexpr std::size_t kMostGlimpses = 40;          // of a piece between two leaps
+constexpr double kLeastFollowed = 0.4, kGain = 0.2;  // of a number of frames that is believed
+constexpr std::size_t kMostPictures = 40;            // of a piece between two leaps
 
 using Four = std::array<const TrajectoryFrame*, 4>;  // neighbouring frames
 
@@ -41,7 +41,7 @@ std::vector<Four> fours_of(const Trajectory& points) {
   return fours;
 }
 
-double leg_px(const Trajectory& points) {
+double twice_shank_px(const Trajectory& points) {
   std::vector<double> legs;
   for (const TrajectoryFrame& frame : points.frames)
     for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
@@ -71,7 +71,7 @@ Leap leap(const Four& four, const std::array<double, kBodyPartCount>& usual_px, 
 /// Pairs of neighbouring frames spread over part of a video.
 std::vector<int> spread(int first, int last) {
   std::vector<int> frames;
-  const int step = std::max(1, (last - first) / static_cast<int>(kMostGlimpses));
+  const int step = std::max(1, (last - first) / static_cast<int>(kMostPictures));
   for (int frame = first; frame < last; frame += step) frames.push_back(frame);
   return frames;
 }
@@ -103,7 +103,7 @@ std::vector<int> leaps_of(const Trajectory& points) {
         all.push_back(apart);
     usual_px[index(part)] = all.empty() ? 0 : std::max(median(std::move(all)), 0.5);
   }
-  const double least_px = kLeastLeap_legs * leg_px(points);
+  const double least_px = kLeastLeap_legs * twice_shank_px(points);
   struct Found {
     int frame = 0;
     double px = 0;
@@ -145,7 +145,7 @@ std::vector<LeftOutFrames> left_out_frames(const Trajectory& points,
       return follow_frames_later(pieces[i].points, glimpses[i - 1].all(), later);
     };
     const PictureCheck as_numbered = follow(shift);
-    double best = std::max(kLeastFollow, as_numbered.follow + kGain);
+    double best = std::max(kLeastFollowed, as_numbered.follow + kGain);
     int count = 0;
     for (int later = shift + 1; later <= missing; ++later) {
       const PictureCheck check = follow(later);

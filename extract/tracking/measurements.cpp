@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStudentDof = 3;  // degrees of freedom of the errors of flow and detectors
 constexpr double kLeastStepVariance = 0.1;  // px², of a step of the flow
 constexpr double kMostOfMarks = 0.75;       // of what the flow misses, by the noise of the marks
@@ -120,7 +119,7 @@ double mean_squared_miss(const std::vector<FlowStretch>& stretches, BodyPart par
     sum += s.forward_miss_px.squaredNorm() + s.backward_miss_px.squaredNorm();
     n += 4;
   }
-  return n > 0 ? sum / n : kNan;
+  return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
 void add_flow(std::vector<Measurement>& measurements, const std::vector<FlowStretch>& stretches,

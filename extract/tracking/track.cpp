@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKeptNoise_px = 0.02;
 constexpr int kReweightings = 3;
 constexpr int kLooks = 5;          // passes of optical flow, until the period has settled

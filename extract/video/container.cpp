@@ -14,10 +14,6 @@ extern "C" {
 namespace stride::video {
 namespace {
 
-struct Close {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-};
-
 /// The nearest turn by right angles. The matrix maps (x, y) to (a x + c y, b x + d y).
 Turn turn_of(const std::int32_t* matrix) {
   const double a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
@@ -53,6 +49,8 @@ double capture_rate_hz(const AVDictionary* metadata) {
 
 }  // namespace
 
+void CloseInput::operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+
 std::string ffmpeg_name(const std::filesystem::path& file) {
   return "file:" + std::filesystem::absolute(file).string();
 }
@@ -61,7 +59,7 @@ Container read_container(const std::filesystem::path& file) {
   av_log_set_level(AV_LOG_QUIET);  // our errors say more than its lines on stderr
   AVFormatContext* opened = nullptr;
   if (avformat_open_input(&opened, ffmpeg_name(file).c_str(), nullptr, nullptr) < 0) return {};
-  const std::unique_ptr<AVFormatContext, Close> context(opened);
+  const std::unique_ptr<AVFormatContext, CloseInput> context(opened);
   Container container;
   container.format = context->iformat->name;
   if (container.format.find("mp4") != std::string::npos) container.edits = read_edits(file);

@@ -7,6 +7,8 @@
 
 #include "extract/video/edit_list.h"
 
+struct AVFormatContext;
+
 namespace stride::video {
 
 /// How stored frames are turned to stand upright: first transposed, then mirrored.
@@ -27,6 +29,11 @@ struct Container {
 
 /// Reads the header alone. Nothing is known of a file that FFmpeg cannot read.
 Container read_container(const std::filesystem::path& file);
+
+/// Closes what avformat_open_input() opened.
+struct CloseInput {
+  void operator()(AVFormatContext* context) const;
+};
 
 /// The name of a file as FFmpeg and OpenCV take it: never as the address of a network stream, which
 /// a name such as `10:30.mp4` would be.

@@ -12,8 +12,7 @@ extern "C" {
 namespace stride::video {
 namespace {
 
-struct Close {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+struct FreePacket {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
@@ -22,8 +21,8 @@ struct Close {
 std::vector<double> packet_times_s(const std::filesystem::path& file) {
   AVFormatContext* opened = nullptr;
   if (avformat_open_input(&opened, ffmpeg_name(file).c_str(), nullptr, nullptr) < 0) return {};
-  const std::unique_ptr<AVFormatContext, Close> context(opened);
-  const std::unique_ptr<AVPacket, Close> packet(av_packet_alloc());
+  const std::unique_ptr<AVFormatContext, CloseInput> context(opened);
+  const std::unique_ptr<AVPacket, FreePacket> packet(av_packet_alloc());
   const int stream = av_find_best_stream(opened, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (stream < 0 || packet == nullptr) return {};
   const double unit_s = av_q2d(context->streams[stream]->time_base);

@@ -7,17 +7,21 @@
 
 #include "calibrate/fit/fit.h"
 #include "extract/skeleton/trajectory.h"
+#include "extract/skeleton/units.h"
 
 namespace stride {
+
+inline SagittalModel default_sagittal_model() {
+  return sagittal_model(osim::load_osim(osim::default_model_file()));
+}
 
 /// A runner with known parameters: the angles of Hamner, Seth and Delp (2010, subject02, three
 /// harmonics) on limbs that are not the model's.
 inline Runner synthetic_runner() {
-  constexpr double degree = std::numbers::pi / 180;
   const auto series = [&](std::initializer_list<double> degrees) {
     FourierSeries<kMaxHarmonics> all{};
     std::size_t i = 0;
-    for (const double each : degrees) all[i++] = each * degree;
+    for (const double each : degrees) all[i++] = each * kDegree;
     return all;
   };
   Runner r;
@@ -25,11 +29,11 @@ inline Runner synthetic_runner() {
   r.cadence = {0.69, 0.005};
   r.body = {0.43, 0.42, 0.21, 0.74, 0.004, -0.003, 0};
   r.sides = {0.006, 0, 0, 0.008, -0.002, 0.001, 0.003};
-  r.tilt[0] = -4 * degree;
+  r.tilt[0] = -4 * kDegree;
   r.hip = series({11.77, 30.45, -14.41, -8.19, 2.99, -3.12, 1.68});
   r.knee = series({-51.32, 7.69, 27.96, 17.57, -20.96, 5.36, -1.27});
   r.ankle = series({-0.66, 16.96, 6.25, -10.89, 3.10, -2.15, -2.69});
-  r.asymmetry = {0.4 * degree, 0.3 * degree, 0, -0.5 * degree, 0, 0.6 * degree, 0, 0, 0};
+  r.asymmetry = {0.4 * kDegree, 0.3 * kDegree, 0, -0.5 * kDegree, 0, 0.6 * kDegree, 0, 0, 0};
   return r;
 }
 

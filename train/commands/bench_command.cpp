@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct BenchArguments {
   std::string engine, model, workload = "both";
   simulation::BenchOptions bench;
   int rollouts = 24;
@@ -74,7 +74,7 @@ void print_table(const std::vector<simulation::BenchResult>& results) {
   }
 }
 
-void run_table(const Arguments& arguments, const osim::Model& model) {
+void run_table(const BenchArguments& arguments, const osim::Model& model) {
   simulation::AccuracyOptions options;
   options.rollouts = arguments.rollouts;
   options.seed = arguments.bench.seed;
@@ -103,7 +103,7 @@ void run_table(const Arguments& arguments, const osim::Model& model) {
   if (arguments.json) fmt::print("{}\n", all.dump(2));
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchArguments& arguments) {
   const simulation::BenchOptions& options = arguments.bench;
   require(options.seconds > 0 && options.seconds < 1e6,
           "--seconds {}: must be positive; 2 is enough on an idle machine", options.seconds);
@@ -145,8 +145,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<BenchArguments>();
+  BenchArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "bench", "How fast the simulation is, under random excitations and under those of a run");
   command->add_option("--engine", a.engine, "simbody or planar; without: both, side by side");

@@ -11,7 +11,7 @@
 namespace stride {
 namespace {
 
-struct Request {
+struct BenchLearnerRequest {
   std::string preset = "paper";
   std::vector<std::string> assignments;
   int states = 112, actions = 18;
@@ -38,7 +38,7 @@ void print_text(const char* precision, const ddpg::LearnerSpeed& speed) {
       100 * speed.update_flops / speed.product_flops, speed.product_flops / 1e9);
 }
 
-void bench(const Request& request) {
+void bench(const BenchLearnerRequest& request) {
   training::TrainOptions options;
   training::read_toml(training::preset_file(request.preset), options);
   for (const std::string& assignment : request.assignments)
@@ -58,7 +58,7 @@ void bench(const Request& request) {
 void add_bench_learner_command(CLI::App& app) {
   auto* command =
       app.add_subcommand("bench-learner", "Measure the learner: updates/s, float against double");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<BenchLearnerRequest>();
   command->add_option("--preset", request->preset, "Networks and batch of this preset")
       ->capture_default_str();
   command->add_option("--set", request->assignments, "One setting, as agent.batch=256");

@@ -13,7 +13,7 @@
 namespace stride {
 namespace {
 
-struct Request {
+struct ExperimentRequest {
   std::string name, potential;
   std::vector<std::string> settings;
   std::optional<int> seeds;
@@ -23,7 +23,7 @@ struct Request {
 };
 
 /// The command that repeats it.
-std::string command_of(const Request& request) {
+std::string command_of(const ExperimentRequest& request) {
   std::string command = fmt::format("stride experiment {}", request.name);
   if (!request.potential.empty()) command += fmt::format(" --potential {}", request.potential);
   if (request.seeds) command += fmt::format(" --seeds {}", *request.seeds);
@@ -43,17 +43,18 @@ void replace_potential(const std::filesystem::path& potential,
     if (arm.potential == replaced) arm.potential = potential;
 }
 
-void experiment_as_requested(const Request& request);
+void experiment_as_requested(const ExperimentRequest& request);
 
 /// All of a group: what became of their claims, or the experiments one after the other.
-void group_as_requested(const std::vector<std::filesystem::path>& group, const Request& request) {
+void group_as_requested(const std::vector<std::filesystem::path>& group,
+                        const ExperimentRequest& request) {
   if (request.list) fmt::print("{}", experiments::kVerdictHeading);
   for (const std::filesystem::path& file : group) {
     if (request.list) {
       fmt::print("{}", experiments::verdict_row(file));
       continue;
     }
-    Request one = request;
+    ExperimentRequest one = request;
     one.name = file.string();
     if (!one.options.runs.empty()) one.options.runs /= file.parent_path().filename();
     if (!one.options.report.empty()) one.options.report /= file.parent_path().filename();
@@ -61,7 +62,7 @@ void group_as_requested(const std::vector<std::filesystem::path>& group, const R
   }
 }
 
-void experiment_as_requested(const Request& request) {
+void experiment_as_requested(const ExperimentRequest& request) {
   if (const auto group = experiments::experiment_group(request.name); !group.empty())
     return group_as_requested(group, request);
   experiments::ExperimentOptions options = request.options;
@@ -96,7 +97,7 @@ void experiment_as_requested(const Request& request) {
 void add_experiment_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "experiment", "Train the arms of an experiment over seeds and compare their curves");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExperimentRequest>();
   experiments::ExperimentOptions& options = request->options;
   command
       ->add_option("NAME", request->name,

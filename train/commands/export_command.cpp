@@ -12,7 +12,7 @@
 namespace stride {
 namespace {
 
-struct Request {
+struct ExportRequest {
   std::filesystem::path run, out;
   std::string agent = "best";
   bool onnx = false;
@@ -24,7 +24,7 @@ std::string onnx_of(const std::filesystem::path& file) {
   return network::to_onnx(network::load_policy<Scalar>(file, names.features, names.actions), names);
 }
 
-void export_policy(const Request& request) {
+void export_policy(const ExportRequest& request) {
   require(request.onnx, "name a format: --onnx");
   const std::filesystem::path file = network::agent_file(request.run, request.agent);
   const std::string precision = training::load_run_options(request.run).run.precision;
@@ -39,7 +39,7 @@ void export_policy(const Request& request) {
 
 void add_export_command(CLI::App& app) {
   auto* command = app.add_subcommand("export", "Write a run's policy for other programs: ONNX");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExportRequest>();
   command->add_option("run", request->run, "Run folder")->required();
   command->add_flag("--onnx", request->onnx, "As ONNX, float32: features → actions");
   command->add_option("-o,--out", request->out, "File; RUN/best.onnx if not given");

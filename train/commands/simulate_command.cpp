@@ -12,14 +12,14 @@
 namespace stride {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::string model, excitations, obstacles, out;
   std::string engine = simulation::kDefaultEngine, rules = "clean", fibres;
   double accuracy = 1e-3;
   std::vector<double> strength;
 };
 
-void run(const Arguments& arguments) {
+void run(const SimulateArguments& arguments) {
   check_outputs({arguments.model, arguments.excitations, arguments.obstacles},
                 {{"--out", arguments.out, FileKind::table}});
   simulation::SimulateOptions options;
@@ -65,7 +65,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command =
       app.add_subcommand("simulate", "run a sequence of muscle excitations through the simulation");
   command->add_option("--model", arguments->model,

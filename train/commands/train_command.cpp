@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The command line's options.
-struct Request {
+struct TrainRequest {
   std::string potential, reference, movement, out, resume, preset, config, from;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed, decisions;
   bool baseline = false;
 };
 
-void apply_overrides(const Request& request, training::TrainOptions& options) {
+void apply_overrides(const TrainRequest& request, training::TrainOptions& options) {
   for (const std::string& assignment : request.assignments)
     training::set_option(assignment, options);
   if (request.seed) options.run.seed = *request.seed;
@@ -48,7 +48,7 @@ void require_fit(const training::TrainOptions& options, const fs::path& from) {
 
 /// A new run: the preset, the movement of the potential, then the config file, then the command
 /// line. Returns its folder.
-fs::path begin(const Request& request) {
+fs::path begin(const TrainRequest& request) {
   require(!request.out.empty(), "--out: name the folder of the run");
   require(request.potential.empty() != !request.baseline,
           "give either --potential FILE, or --baseline to train without one");
@@ -80,7 +80,7 @@ fs::path begin(const Request& request) {
 }
 
 /// An existing run; only its length may be changed.
-fs::path resume(const Request& request) {
+fs::path resume(const TrainRequest& request) {
   require(request.out.empty() && request.potential.empty() && request.reference.empty() &&
               request.movement.empty() && !request.baseline && request.config.empty() &&
               request.from.empty() && request.assignments.empty() && !request.seed,
@@ -95,7 +95,7 @@ fs::path resume(const Request& request) {
   return run;
 }
 
-void train_as_requested(const Request& request) {
+void train_as_requested(const TrainRequest& request) {
   parallel::Ranks& ranks = parallel::Ranks::world();
   fs::path run = request.resume.empty() ? request.out : request.resume;
   if (ranks.first()) run = request.resume.empty() ? begin(request) : resume(request);
@@ -121,7 +121,7 @@ void train_as_requested(const Request& request) {
 
 void add_train_command(CLI::App& app) {
   auto* command = app.add_subcommand("train", "Train a runner, shaped by a potential file");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TrainRequest>();
   command->add_option("--potential", request->potential, "NAME.potential.json to shape by");
   command->add_option("--reference", request->reference,
                       "Run on which episodes may start; NAME.calibrated.csv beside the potential "

@@ -123,15 +123,20 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#66a182", "#edae49", "#5d3a9b",
                                       "#555555", "#00b4d8", "#8d5524", "#e377c2", "#7cb518"};
   const bool crowded = bands.size() > 4;
+  const bool decisions = options.against == "decisions";
+  double end = 0;
+  for (const Band& band : bands) end = std::max(end, band.x.back());
+  const bool millions = decisions && end > 1e6;  // the format's %c would label many tics 1M
+  const char* x = millions ? "($1/1e6)" : "1";
   std::string lines;
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const char* colour = kColours[i % std::size(kColours)];
     lines += fmt::format(
-        "{} {} index {} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
-        "transparent solid {} noborder notitle, \\\n  '' index {} using 1:2 with lines lw 2 lc "
+        "{} {} index {} using {}:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
+        "transparent solid {} noborder notitle, \\\n  '' index {} using {}:2 with lines lw 2 lc "
         "rgb '{}' title {} noenhanced",
-        i == 0 ? "plot" : ", \\\n ", gnuplot_file(name + ".csv"), i, colour, crowded ? 0.1 : 0.2, i,
-        colour, gnuplot_string(bands[i].label));
+        i == 0 ? "plot" : ", \\\n ", gnuplot_file(name + ".csv"), i, x, colour, crowded ? 0.1 : 0.2,
+        i, x, colour, gnuplot_string(bands[i].label));
   }
   std::string script = fmt::format(
       "# Run gnuplot on this file in its folder. Mean and standard error over seeds.\n"
@@ -139,7 +144,8 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
       "set autoscale xfix\nset format x '{}'\nset xlabel '{}'\nset ylabel {} noenhanced\n"
       "set title {} noenhanced\n",
       crowded ? "key outside right top Left reverse" : "rmargin 5\nset key left top",
-      options.against == "decisions" ? "%.0s%c" : "%g", axes.at(options.against),
+      decisions && !millions ? "%.0s%c" : "%g",
+      millions ? "decisions (millions)" : axes.at(options.against),
       gnuplot_string(options.column == "evaluation_distance_m" ? measure + " (m)" : options.column),
       gnuplot_string(options.title));
   for (const auto& [terminal, extension] :

@@ -7,7 +7,6 @@
 namespace stride::task {
 namespace {
 
-constexpr double kBearing = 0.05;  // of the body's weight: a foot that bears more is on the ground
 constexpr double kShortestFlight_s = 0.05;
 constexpr double kStand_s = 0.5;        // after the landing
 constexpr double kFromStart_m = 0.5;    // a take-off farther ahead has a run-up
@@ -74,7 +73,7 @@ class Jump : public Task {
 
   std::array<bool, 2> feet_down(const Moment& moment) const {
     const auto& force = moment.kinematics.ground_reaction_N;
-    return {force[0].y > kBearing * weight_N_, force[1].y > kBearing * weight_N_};
+    return {force[0].y > kBearingShare * weight_N_, force[1].y > kBearingShare * weight_N_};
   }
 
   bool flies() const { return airborne_s_ > kShortestFlight_s - 1e-9; }

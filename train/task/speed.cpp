@@ -7,8 +7,6 @@
 namespace stride::task {
 namespace {
 
-constexpr double kBearing = 0.05;  // of the body's weight
-
 double mean_squared(const std::array<double, simulation::kMuscles>& activation) {
   double sum = 0;
   for (const double each : activation) sum += each * each;
@@ -56,7 +54,7 @@ std::unique_ptr<Task> speed(const TaskOptions& options, const osim::Model&) {
 std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model) {
   double weight_N = 0;
   for (const osim::Body& body : model.bodies) weight_N -= body.mass_kg * model.gravity_m_s2[1];
-  return std::make_unique<Speed>(options, kBearing * weight_N);
+  return std::make_unique<Speed>(options, kBearingShare * weight_N);
 }
 
 }  // namespace stride::task

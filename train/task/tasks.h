@@ -4,6 +4,9 @@
 
 namespace stride::task {
 
+inline constexpr double kBearingShare =
+    0.05;  // of the body's weight, on a foot that is on the ground
+
 // The tasks; each in the file of its name. task.cpp has their table.
 
 /// The competition's: as far as possible in 10 s. A fall is a pelvis below 0.65 m.

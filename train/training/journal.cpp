@@ -7,11 +7,12 @@
 #include "train/training/curve.h"
 
 namespace stride::training {
-namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+namespace {
 
 std::string duration_text(double s) {
   if (!std::isfinite(s)) return "?";

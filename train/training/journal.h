@@ -15,6 +15,8 @@
 
 namespace stride::training {
 
+double seconds_since(std::chrono::steady_clock::time_point start);
+
 /// The files that grow during training, and the progress line.
 class Journal {
  public:

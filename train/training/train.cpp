@@ -27,10 +27,6 @@ using Clock = std::chrono::steady_clock;
 /// Values beyond it count as divergence; rewards in metres cannot add up to it.
 constexpr double kDivergedValue = 1e6;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// Number of updates due: a fixed ratio to the decisions after the warm-up.
 std::int64_t updates_due(const TrainOptions& options, const Progress& progress) {
   const auto learned = static_cast<double>(progress.decisions - options.run.warm_up);

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "calibrate/fit/solver/add_residual.h"
 #include "calibrate/fit/solver/problem.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::fit {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A normal prior on the entries of a block. An entry without one does not compile.
 template <std::size_t N>

@@ -9,11 +9,10 @@
 
 #include "calibrate/fit/solver/add_residual.h"
 #include "calibrate/fit/solver/point_cost.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::fit {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void add_joint_limits(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres) {
   constexpr int kPhases = 24;

@@ -11,7 +11,7 @@
 namespace stride::annotation {
 namespace {
 
-using Json = nlohmann::json;
+using ScriptJson = nlohmann::json;
 using Kind = AnnotationEvent::Kind;
 using Button = AnnotationEvent::Button;
 
@@ -26,7 +26,7 @@ int key_of(const std::string& name) {
   return found->second;
 }
 
-Button button_of(const Json& event) {
+Button button_of(const ScriptJson& event) {
   const std::string name = event.value("button", "left");
   if (name == "left") return Button::left;
   if (name == "right") return Button::right;
@@ -40,7 +40,7 @@ class Player {
          const std::function<void()>& wait_for_tracking)
       : session_(session), folder_(folder), wait_for_tracking_(wait_for_tracking) {}
 
-  void play(const Json& event) {
+  void play(const ScriptJson& event) {
     if (event.contains("key")) {
       send_key(key_of(event.at("key")));
     } else if (event.contains("type")) {
@@ -70,7 +70,7 @@ class Player {
   }
 
  private:
-  Eigen::Vector2d canvas(const Json& image) const {
+  Eigen::Vector2d canvas(const ScriptJson& image) const {
     const Eigen::Vector2d p_px(image.at(0).get<double>(), image.at(1).get<double>());
     const Eigen::Vector2d p = session_.view().to_canvas(p_px);
     require(session_.view().contains(p),
@@ -85,7 +85,7 @@ class Player {
     session_.handle(event);
   }
 
-  void send_mouse(Kind kind, const Json& image, Button button) {
+  void send_mouse(Kind kind, const ScriptJson& image, Button button) {
     AnnotationEvent event;
     event.kind = kind;
     event.p_canvas = canvas(image);
@@ -93,7 +93,7 @@ class Player {
     session_.handle(event);
   }
 
-  void press_and_release(const Json& from, const Json& to, Button button) {
+  void press_and_release(const ScriptJson& from, const ScriptJson& to, Button button) {
     // The view may change at the press (a click can lead to another frame); the mouse stays.
     const Eigen::Vector2d end = canvas(to);
     send_mouse(Kind::press, from, button);
@@ -121,8 +121,8 @@ void run_script(AnnotationSession& session, const std::filesystem::path& script,
   for (int number = 1; std::getline(lines, line) && !session.done(); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with("#")) continue;
     try {
-      player.play(Json::parse(line));
-    } catch (const Json::exception&) {
+      player.play(ScriptJson::parse(line));
+    } catch (const ScriptJson::exception&) {
       throw Error(fmt::format("{}:{}: expected an event as one JSON object, as {{\"key\": \"r\"}}",
                               script.string(), number));
     } catch (const std::exception& error) {

@@ -18,9 +18,9 @@ struct Mark {
   Point point;
 };
 
-class Reader {
+class CvatReader {
  public:
-  Reader(std::string_view content, const std::string& file) : content_(content), file_(file) {}
+  CvatReader(std::string_view content, const std::string& file) : content_(content), file_(file) {}
 
   std::vector<Mark> read() {
     pugi::xml_document document;
@@ -91,7 +91,7 @@ class Reader {
 
 ImportedFile read_cvat(std::string_view text, const std::string& file,
                        const ImportOptions& options) {
-  const std::vector<Mark> marks = Reader(text, file).read();
+  const std::vector<Mark> marks = CvatReader(text, file).read();
   std::vector<std::string> labels;
   for (const Mark& mark : marks)
     if (std::ranges::find(labels, mark.label) == labels.end()) labels.push_back(mark.label);

@@ -147,9 +147,9 @@ const LabelMap& map_of_landmarks() {
   return map;
 }
 
-using Points = std::vector<Point>;
+using Landmarks = std::vector<Point>;
 
-void add_person(int frame, const std::string& id, const Points& points, ImportedFile& content) {
+void add_person(int frame, const std::string& id, const Landmarks& points, ImportedFile& content) {
   content.people.push_back({frame, id, map_of_landmarks().parts(points)});
 }
 
@@ -169,7 +169,7 @@ ImportedFile read_table(std::string_view text, const std::string& file) {
           "{}:{}: expected columns like LEFT_KNEE_x, x25 or landmark_25_x, or landmark, x, y", file,
           lines.front().number);
   ImportedFile content;
-  std::map<std::pair<int, std::string>, Points> long_form;
+  std::map<std::pair<int, std::string>, Landmarks> long_form;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const TextLine& line = lines[i];
     check_width(line, lines.front(), file);
@@ -177,7 +177,7 @@ ImportedFile read_table(std::string_view text, const std::string& file) {
     const int frame =
         layout.frame == kNone ? static_cast<int>(i) - 1 : frame_in(line, layout.frame, file);
     if (layout.landmarks >= kFewest) {
-      Points points(kLandmarks);
+      Landmarks points(kLandmarks);
       for (std::size_t k = 0; k < kLandmarks; ++k)
         if (layout.wide[k][0] != kNone) points[k] = point_in(line, layout.wide[k], file);
       add_person(frame, id, points, content);
@@ -188,7 +188,7 @@ ImportedFile read_table(std::string_view text, const std::string& file) {
     const std::size_t k = landmark_of(line.cells[layout.landmark]);
     require(k < kLandmarks, "{}:{}: '{}': expected one of MediaPipe's landmarks, 0 to 32 or a name",
             file, line.number, line.cells[layout.landmark]);
-    Points& points = long_form.try_emplace({frame, id}, Points(kLandmarks)).first->second;
+    Landmarks& points = long_form.try_emplace({frame, id}, Landmarks(kLandmarks)).first->second;
     points[k] = point_in(line, {layout.x, layout.y, layout.seen}, file);
   }
   for (const auto& [key, points] : long_form) add_person(key.first, key.second, points, content);
@@ -215,8 +215,8 @@ bool is_point(const JsonValue& value) {
 }
 
 /// The landmarks of one person: a list of 33, or an object by name.
-Points landmarks_of(const JsonValue& person) {
-  Points points(kLandmarks);
+Landmarks landmarks_of(const JsonValue& person) {
+  Landmarks points(kLandmarks);
   if (person.is_object()) {
     for (const std::string& key : person.keys())
       if (const std::size_t k = landmark_of(key); k < kLandmarks && is_point(person[key]))

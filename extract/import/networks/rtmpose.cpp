@@ -30,7 +30,7 @@ void add_person(int frame, const JsonValue& keypoints, const std::optional<JsonV
   content.people.push_back({frame, "", LabelMap(labels, {}, file).parts(points)});
 }
 
-bool is_point(const JsonValue& value) {
+bool is_list_of_numbers(const JsonValue& value) {
   return value.is_array() && value.size() > 0 && value[0].is_number();
 }
 
@@ -39,7 +39,7 @@ void add_people(int frame, const JsonValue& keypoints, const std::optional<JsonV
                 const std::string& file, ImportedFile& content, int deepest = kDeepest) {
   if (keypoints.size() == 0) return;
   if (deepest == 0) keypoints.fail("people with lists of [x, y]");
-  if (is_point(keypoints[0])) return add_person(frame, keypoints, scores, file, content);
+  if (is_list_of_numbers(keypoints[0])) return add_person(frame, keypoints, scores, file, content);
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     if (keypoints[i].is_object()) {
       add_people(frame, keypoints[i]["keypoints"],

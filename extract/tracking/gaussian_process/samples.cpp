@@ -33,11 +33,15 @@ GroupData centred(Group group, std::vector<Sample> samples, double size_px) {
 
 std::vector<Sample> samples_of(Group group, const Observations& observations, double origin_s) {
   std::vector<Sample> samples;
-  for (const Observation& o : observations[index(group.right)])
-    samples.push_back({o.time_s - origin_s, 0, o.p_px, o.variance_px2, o.since_s - origin_s});
-  if (group.paired())
-    for (const Observation& o : observations[index(group.left)])
-      samples.push_back({o.time_s - origin_s, 1, o.p_px, o.variance_px2, o.since_s - origin_s});
+  const auto add = [&](BodyPart part, int left) {
+    for (Observation o : observations[index(part)]) {
+      o.time_s -= origin_s;
+      o.since_s -= origin_s;
+      samples.push_back({o, left});
+    }
+  };
+  add(group.right, 0);
+  if (group.paired()) add(group.left, 1);
   return samples;
 }
 

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "extract/skeleton/body_part.h"
@@ -26,14 +24,9 @@ inline constexpr auto kLegGroups = [] {
 }();
 inline constexpr Group kHead{BodyPart::head, BodyPart::head};
 
-/// An observation of a group: `left` 0 or 1.
-struct Sample {
-  double time_s;
-  int left;
-  Eigen::Vector2d p_px, variance_px2;
-  double since_s = std::numeric_limits<double>::quiet_NaN();
-
-  bool is_displacement() const { return !std::isnan(since_s); }
+/// An observation of a group.
+struct Sample : Observation {
+  int left = 0;  // or 1
 };
 
 /// The samples of a group minus their mean, and the scale of the motion.

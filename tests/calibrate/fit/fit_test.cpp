@@ -8,10 +8,6 @@
 namespace stride {
 namespace {
 
-SagittalModel default_model() {
-  return sagittal_model(osim::load_osim(osim::default_model_file()));
-}
-
 /// Scale and roll are given, because the points do not determine them. The points are as good as
 /// their residuals say.
 fit::FitOptions known_scale_and_roll() {
@@ -51,7 +47,7 @@ fit::StrideFit truth() {
 }
 
 TEST(Fit, RecoversEverythingFromMarksWithoutNoise) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const fit::StrideFit fit = fit_clip({}, model);
   const Runner runner = synthetic_runner();
   ASSERT_TRUE(fit.ok) << fit.failure;
@@ -79,7 +75,7 @@ TEST(Fit, RecoversEverythingFromMarksWithoutNoise) {
 }
 
 TEST(Fit, TenPercentGrossOutliersMoveNothingByAMillimetre) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const fit::StrideFit clean = fit_clip({}, model);
   for (const unsigned seed : {1u, 2u, 3u}) {
     const fit::StrideFit spoilt = fit_clip({.outliers = 0.1, .seed = seed}, model);
@@ -89,7 +85,7 @@ TEST(Fit, TenPercentGrossOutliersMoveNothingByAMillimetre) {
 }
 
 TEST(Fit, DoesNotDependOnTheWayRateOrResolutionOfTheClip) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const fit::StrideFit right = fit_clip({.noise_px = 0.5}, model);
   const fit::StrideFit left = fit_clip({.to_left = true, .noise_px = 0.5}, model);
   EXPECT_LT(largest_difference(right, left, model), 1e-4);
@@ -99,7 +95,7 @@ TEST(Fit, DoesNotDependOnTheWayRateOrResolutionOfTheClip) {
 }
 
 TEST(Fit, PlacesLegsWithoutToes) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const fit::StrideFit fit = fit_clip({.toes = false, .noise_px = 1}, model);
   ASSERT_TRUE(fit.ok) << fit.failure;
   EXPECT_FALSE(fit.toes_seen);
@@ -107,7 +103,7 @@ TEST(Fit, PlacesLegsWithoutToes) {
 }
 
 TEST(Fit, WithNumericDerivativesIsTheSame) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   fit::FitOptions numeric = known_scale_and_roll();
   numeric.numeric_derivatives = true;
   numeric.harmonics = 3;
@@ -123,22 +119,21 @@ TEST(Fit, WithNumericDerivativesIsTheSame) {
 Runner random_runner(unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const double degree = std::numbers::pi / 180;
   Runner r = synthetic_runner();
   r.body[body::hip_x] = 0.01 * normal(random);
   r.body[body::hip_y] = 0.01 * normal(random);
   r.sides = {0.025 * normal(random), 0.01 * normal(random), 0.01 * normal(random),
              0.01 * normal(random),  0.01 * normal(random), 0.007 * normal(random),
              0.007 * normal(random)};
-  r.tilt[0] = (-4 + 4 * normal(random)) * degree;
-  for (double& each : r.asymmetry) each = 3 * degree * normal(random);
+  r.tilt[0] = (-4 + 4 * normal(random)) * kDegree;
+  for (double& each : r.asymmetry) each = 3 * kDegree * normal(random);
   return r;
 }
 
 // The truth is inside the stated band 95 % of the time. Within a clip the coordinates of the
 // keyframes are correlated, so the count scatters as that of a few numbers a clip.
 TEST(Fit, StatesItsUncertainty) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   int inside = 0, all = 0, period_inside = 0;
   constexpr int kClips = 20;
   for (unsigned seed = 1; seed <= kClips; ++seed) {

@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "extract/skeleton/units.h"
 #include "tests/calibrate/rendered.h"
 #include "videos/truth.h"
 
 namespace stride {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A camera that goes along a ground whose image falls to the right by `slope` (y is down).
 Trajectory passing(double slope_rad, double px_a_frame, double sway_px, double slipped = 0) {

@@ -7,12 +7,8 @@
 namespace stride {
 namespace {
 
-SagittalModel default_model() {
-  return sagittal_model(osim::load_osim(osim::default_model_file()));
-}
-
 fit::Marks marks_of(const SyntheticClip& clip) {
-  return fit::observe(synthetic_trajectory(synthetic_runner(), default_model(), clip),
+  return fit::observe(synthetic_trajectory(synthetic_runner(), default_sagittal_model(), clip),
                       clip.to_left);
 }
 
@@ -38,7 +34,7 @@ TEST(InitialGuess, NeedsMarks) {
 TEST(InitialGuess, OfTheLimbsIsNearTheTruth) {
   const Runner truth = synthetic_runner();
   const double leg_m = truth.body[body::thigh] + truth.body[body::shank];
-  const Runner runner = fit::guess_runner(marks_of({}), default_model(), 0.69, leg_m);
+  const Runner runner = fit::guess_runner(marks_of({}), default_sagittal_model(), 0.69, leg_m);
   EXPECT_NEAR(runner.camera[camera::log_px_per_m], truth.camera[camera::log_px_per_m], 0.05);
   for (const int length : {body::thigh, body::shank, body::foot})
     EXPECT_NEAR(runner.body[length], truth.body[length], 0.05 * truth.body[length]);

@@ -10,7 +10,7 @@
 namespace stride {
 namespace {
 
-const std::filesystem::path kData = STRIDE_TEST_DATA;
+const std::filesystem::path kRecordings = STRIDE_TEST_DATA;
 
 osim::Model runner() { return osim::load_osim(osim::default_model_file()); }
 
@@ -24,7 +24,7 @@ const osim::TransformAxis& knee_translation(const osim::Model& model, int axis) 
 // spline on either side.
 TEST(SimmSpline, IsOpenSimsSimmSplineAndItsDerivative) {
   const osim::Model model = runner();
-  const Table recorded = load_csv(kData / "opensim_knee_kinematics.csv");
+  const Table recorded = load_csv(kRecordings / "opensim_knee_kinematics.csv");
   ASSERT_GT(recorded.rows.size(), 150u);
   for (int axis : {0, 1}) {
     const osim::SplineCoefficients spline =

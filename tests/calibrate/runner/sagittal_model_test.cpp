@@ -6,17 +6,14 @@
 #include <array>
 
 #include "extract/io/table.h"
+#include "tests/calibrate/synthetic.h"
 #include "tests/support/throws.h"
 
 namespace stride {
 namespace {
 
-SagittalModel default_model() {
-  return sagittal_model(osim::load_osim(osim::default_model_file()));
-}
-
 TEST(SagittalModel, PlacesEveryPartWhereOpenSimDoes) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const Table poses = load_csv(STRIDE_TEST_DATA "/opensim_bodies.csv");
   ASSERT_EQ(poses.rows.size(), 40u);
   const std::array<std::pair<BodyPart, const char*>, 9> bodies{{{BodyPart::hip_r, "femur_r"},
@@ -45,7 +42,7 @@ TEST(SagittalModel, PlacesEveryPartWhereOpenSimDoes) {
 
 TEST(SagittalModel, DifferentiatesLikeFiniteDifferences) {
   using Jet = ceres::Jet<double, 4>;
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const std::array<double, 4> q{-0.1, 0.6, -1.3, 0.2};
   const auto toe = [&](std::array<double, 4> at) {
     return place_leg(model, at[0], at[1], at[2], at[3]).toe;
@@ -64,7 +61,7 @@ TEST(SagittalModel, DifferentiatesLikeFiniteDifferences) {
 }
 
 TEST(SagittalModel, KnowsTheLimitsAndTheSoleOfTheModel) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const double degree = M_PI / 180;
   EXPECT_NEAR(model.hip.min, -40 * degree, 1e-6);
   EXPECT_NEAR(model.hip.max, 130 * degree, 1e-6);  // the limits, not the narrower ranges

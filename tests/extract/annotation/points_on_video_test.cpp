@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::filesystem::path kVideo = STRIDE_SOURCE_DIR "/videos/small.mp4";  // 320 x 180, 24 Hz
+const std::filesystem::path kSmall = STRIDE_SOURCE_DIR "/videos/small.mp4";  // 320 x 180, 24 Hz
 
 /// The truth of small.mp4 as a detector would give it.
 imports::Detections truth() {
@@ -51,7 +51,7 @@ Told told(const imports::Detections& detections,
           const tracking::PointsOnVideoOptions& options = {}) {
   testing::internal::CaptureStderr();
   try {
-    Told result{tracking::points_on(kVideo, detections, options), {}};
+    Told result{tracking::points_on(kSmall, detections, options), {}};
     result.warnings = testing::internal::GetCapturedStderr();
     return result;
   } catch (const Error&) {

@@ -16,7 +16,7 @@
 namespace stride {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kMapWidth = 64, kMapHeight = 48;
 using Integers = std::vector<std::int64_t>;
 const Integers kOneByOne{1, 1};
 
@@ -26,17 +26,17 @@ OnnxModel heatmap_network() {
   OnnxModel model;
   model.name = "spots";
   model.opset = 4;  // the last in which Reshape has its shape as an attribute
-  model.inputs = {{"input", {1, 3, kHeight, kWidth}}};
+  model.inputs = {{"input", {1, 3, kMapHeight, kMapWidth}}};
   model.constants = {{"weight", {3, 3, 1, 1}, {1, -1, -1, -1, 1, -1, -1, -1, 1}}};
   model.nodes = {{"Conv", {"input", "weight"}, {"maps"}, {{"kernel_shape", kOneByOne}}}};
-  model.outputs = {{"maps", {1, 3, kHeight, kWidth}}};
+  model.outputs = {{"maps", {1, 3, kMapHeight, kMapWidth}}};
   return model;
 }
 
 /// The same, and then the highest of each column and of each row.
 OnnxModel simcc_network() {
   OnnxModel model = heatmap_network();
-  const Integers column{kHeight, 1}, row{1, kWidth}, x{1, 3, kWidth}, y{1, 3, kHeight};
+  const Integers column{kMapHeight, 1}, row{1, kMapWidth}, x{1, 3, kMapWidth}, y{1, 3, kMapHeight};
   model.nodes.push_back({"MaxPool", {"maps"}, {"columns"}, {{"kernel_shape", column}}});
   model.nodes.push_back({"MaxPool", {"maps"}, {"rows"}, {{"kernel_shape", row}}});
   model.nodes.push_back({"Reshape", {"columns"}, {"simcc_x"}, {{"shape", x}}});
@@ -50,8 +50,8 @@ const Eigen::Vector2d kWays[]{{0, -12}, {3, 2}, {-4, 11}};
 OnnxModel yolo_network() {
   std::vector<float> before, after;  // the channels before and after the confidence of the box
   const auto fill = [](std::vector<float>& to, auto value) {
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) to.push_back(static_cast<float>(value(x, y)));
+    for (int y = 0; y < kMapHeight; ++y)
+      for (int x = 0; x < kMapWidth; ++x) to.push_back(static_cast<float>(value(x, y)));
   };
   fill(before, [](int x, int) { return x; });
   fill(before, [](int, int y) { return y; });
@@ -63,10 +63,10 @@ OnnxModel yolo_network() {
     fill(after, [&](int, int) { return 0.9; });
   }
   OnnxModel model = heatmap_network();
-  const Integers rows{1, 14, kWidth * kHeight};
+  const Integers rows{1, 14, kMapWidth * kMapHeight};
   model.constants = {{"weight", {1, 3, 1, 1}, {1, -1, -1}},
-                     {"before", {1, 4, kHeight, kWidth}, before},
-                     {"after", {1, 9, kHeight, kWidth}, after}};
+                     {"before", {1, 4, kMapHeight, kMapWidth}, before},
+                     {"after", {1, 9, kMapHeight, kMapWidth}, after}};
   model.nodes.push_back(
       {"Concat", {"before", "maps", "after"}, {"all"}, {{"axis", std::int64_t{1}}}});
   model.nodes.push_back({"Reshape", {"all"}, {"rows"}, {{"shape", rows}}});
@@ -84,12 +84,12 @@ float map_of(const cv::Mat& input, int k, int y, int x) {
   return sum;
 }
 cv::Mat expected_maps() {
-  const cv::Mat input = pose::self_check_input(kWidth, kHeight);
-  const int shape[]{1, 3, kHeight, kWidth};
+  const cv::Mat input = pose::self_check_input(kMapWidth, kMapHeight);
+  const int shape[]{1, 3, kMapHeight, kMapWidth};
   cv::Mat maps(4, shape, CV_32F);
   for (int k = 0; k < 3; ++k)
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kMapHeight; ++y)
+      for (int x = 0; x < kMapWidth; ++x) {
         const int place[]{0, k, y, x};
         maps.at<float>(place) = map_of(input, k, y, x);
       }
@@ -102,7 +102,7 @@ std::string sidecar(const std::string& decoder, const std::vector<double>& value
       "decoder = \"{}\"\nkeypoints = [\"right knee\", \"left knee\", \"pt3\"]\n{}\n"
       "[input]\nwidth = {}\nheight = {}\ncolour = \"rgb\"\nmean = [0, 0, 0]\n"
       "std = [255, 255, 255]\n\n[parts]\npelvis = \"pt3\"\n\n[self-check]\nvalues = [{}]\n",
-      decoder, more, kWidth, kHeight, fmt::join(values, ", "));
+      decoder, more, kMapWidth, kMapHeight, fmt::join(values, ", "));
 }
 
 struct Model {
@@ -135,8 +135,8 @@ TEST(Pose, HeatMapsGiveTheSpotBetweenThePixels) {
   Model model;
   model.write(to_onnx(heatmap_network()),
               sidecar("heatmap", pose::self_check_values({expected_maps()}, 40)));
-  const auto people =
-      model.load().find(picture({kWidth, kHeight}, kPlaces), {-0.5, -0.5, kWidth, kHeight});
+  const auto people = model.load().find(picture({kMapWidth, kMapHeight}, kPlaces),
+                                        {-0.5, -0.5, kMapWidth, kMapHeight});
   ASSERT_EQ(people.size(), 1u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR((people[0].keypoints[k].p_px - kPlaces[k]).norm(), 0, 0.05) << k;
@@ -150,9 +150,9 @@ TEST(Pose, ALargerPictureIsMadeSmallerAndABoxLarger) {
               sidecar("heatmap", pose::self_check_values({expected_maps()}, 40)));
   pose::PoseNetwork network = model.load();
   cv::Mat twice;
-  const cv::Mat image = picture({kWidth, kHeight}, kPlaces);
+  const cv::Mat image = picture({kMapWidth, kMapHeight}, kPlaces);
   cv::resize(image, twice, {}, 2, 2, cv::INTER_LINEAR);
-  const auto small = network.find(twice, {-0.5, -0.5, 2 * kWidth, 2 * kHeight});
+  const auto small = network.find(twice, {-0.5, -0.5, 2 * kMapWidth, 2 * kMapHeight});
   const auto box = network.find(image, {13.5, 9.5, 32, 12});  // wider than the input's 4 : 3
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d place = 2 * kPlaces[k] + Eigen::Vector2d::Constant(0.5);
@@ -163,21 +163,21 @@ TEST(Pose, ALargerPictureIsMadeSmallerAndABoxLarger) {
 
 TEST(Pose, SimCCGivesTheBestColumnAndRow) {
   cv::Mat maps = expected_maps();
-  const int across[]{1, 3, kWidth}, down[]{1, 3, kHeight};
+  const int across[]{1, 3, kMapWidth}, down[]{1, 3, kMapHeight};
   cv::Mat x(3, across, CV_32F), y(3, down, CV_32F);
   for (int k = 0; k < 3; ++k) {
-    const cv::Mat map(kHeight, kWidth, CV_32F, maps.ptr<float>(0, k));
+    const cv::Mat map(kMapHeight, kMapWidth, CV_32F, maps.ptr<float>(0, k));
     cv::Mat columns, rows;
     cv::reduce(map, columns, 0, cv::REDUCE_MAX);
     cv::reduce(map, rows, 1, cv::REDUCE_MAX);
-    std::copy_n(columns.ptr<float>(), kWidth, x.ptr<float>(0, k));
-    std::copy_n(rows.ptr<float>(), kHeight, y.ptr<float>(0, k));
+    std::copy_n(columns.ptr<float>(), kMapWidth, x.ptr<float>(0, k));
+    std::copy_n(rows.ptr<float>(), kMapHeight, y.ptr<float>(0, k));
   }
   Model model;
   model.write(to_onnx(simcc_network()), sidecar("simcc", pose::self_check_values({x, y}, 50),
                                                 "outputs = [\"simcc_x\", \"simcc_y\"]"));
-  const auto people =
-      model.load().find(picture({kWidth, kHeight}, kPlaces), {-0.5, -0.5, kWidth, kHeight});
+  const auto people = model.load().find(picture({kMapWidth, kMapHeight}, kPlaces),
+                                        {-0.5, -0.5, kMapWidth, kMapHeight});
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_EQ(people[0].keypoints[k].p_px, Eigen::Vector2d(kPlaces[k].array().round())) << k;
 }
@@ -193,12 +193,12 @@ TEST(Pose, SimCCPlacesLieBetweenPixels) {
 }
 
 TEST(Pose, YoloGivesEverybodyOnce) {
-  const cv::Mat input = pose::self_check_input(kWidth, kHeight);
-  const int shape[]{1, 14, kWidth * kHeight};
+  const cv::Mat input = pose::self_check_input(kMapWidth, kMapHeight);
+  const int shape[]{1, 14, kMapWidth * kMapHeight};
   cv::Mat rows(3, shape, CV_32F);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const int cell = y * kWidth + x;
+  for (int y = 0; y < kMapHeight; ++y)
+    for (int x = 0; x < kMapWidth; ++x) {
+      const int cell = y * kMapWidth + x;
       const auto set = [&](int row, double value) {
         rows.ptr<float>(0, row)[cell] = static_cast<float>(value);
       };
@@ -208,9 +208,9 @@ TEST(Pose, YoloGivesEverybodyOnce) {
     }
   Model model;
   model.write(to_onnx(yolo_network()), sidecar("yolo-pose", pose::self_check_values({rows}, 60)));
-  cv::Mat image = picture({kWidth, kHeight}, {{16, 24}});
-  cv::max(image, picture({kWidth, kHeight}, {{48, 20}}, 200), image);
-  const auto people = model.load().find(image, {-0.5, -0.5, kWidth, kHeight});
+  cv::Mat image = picture({kMapWidth, kMapHeight}, {{16, 24}});
+  cv::max(image, picture({kMapWidth, kMapHeight}, {{48, 20}}, 200), image);
+  const auto people = model.load().find(image, {-0.5, -0.5, kMapWidth, kMapHeight});
   ASSERT_EQ(people.size(), 2u);
   EXPECT_NEAR(people[1].confidence, 200 / 255.0, 0.01);
   for (std::size_t k = 0; k < 3; ++k) {

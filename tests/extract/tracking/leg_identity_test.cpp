@@ -48,8 +48,8 @@ TEST(LegIdentity, RepairsARunToTheLeftWithFewPartsAtHalfTheRate) {
   EXPECT_GE(right, 0.99 * frames) << right << " of " << frames;
 }
 
-/// A person's clicks every `spacing` frames, without hips, 1.5 px noise.
-Trajectory clicks(const char* clip, int spacing) {
+/// A person's clicks_of every `spacing` frames, without hips, 1.5 px noise.
+Trajectory clicks_of(const char* clip, int spacing) {
   Trajectory points = detected(fmt::format(STRIDE_SOURCE_DIR "/videos/{}.truth.csv", clip));
   std::erase_if(points.frames, [&](const TrajectoryFrame& f) { return f.frame % spacing != 1; });
   Random random(7);
@@ -66,7 +66,7 @@ Trajectory clicks(const char* clip, int spacing) {
 TEST(LegIdentity, SuspectsASwappedFrameAmongSparseClicks) {
   for (const char* clip : {"human", "game", "small", "walk"})
     for (const int spacing : {4, 6}) {
-      const Trajectory points = clicks(clip, spacing);
+      const Trajectory points = clicks_of(clip, spacing);
       EXPECT_TRUE(tracking::repair_legs(points).swaps.empty()) << clip << " every " << spacing;
       Trajectory swapped = points;
       tracking::swap_legs(swapped.frames[8]);

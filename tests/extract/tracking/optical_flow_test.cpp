@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr BodyPart kKnee = BodyPart::knee_r;
+constexpr BodyPart kPart = BodyPart::knee_r;
 const Vector2d kFrom(60, 80), kStep(1.75, -0.5);  // px, px a frame
 
 Vector2d place(int frame) { return kFrom + frame * kStep; }
@@ -38,7 +38,7 @@ Trajectory ends(int last, const Vector2d& off = Vector2d::Zero()) {
   for (const int f : {0, last}) {
     TrajectoryFrame& frame = marks.frames.emplace_back();
     frame.frame = f;
-    frame[kKnee] = {place(f) + (f > 0 ? off : Vector2d(0, 0)), Source::clicked, 1};
+    frame[kPart] = {place(f) + (f > 0 ? off : Vector2d(0, 0)), Source::clicked, 1};
   }
   return marks;
 }

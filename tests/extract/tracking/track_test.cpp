@@ -11,13 +11,13 @@
 namespace stride {
 namespace {
 
-const std::filesystem::path kVideo = STRIDE_SOURCE_DIR "/videos/human.mp4";
+const std::filesystem::path kHuman = STRIDE_SOURCE_DIR "/videos/human.mp4";
 const std::filesystem::path kClicks = STRIDE_SOURCE_DIR "/videos/human.keypoints.json";
 const std::filesystem::path kTruth = STRIDE_SOURCE_DIR "/videos/human.truth.csv";
 
 TEST(Track, BeatsTheSplineThroughTheSameClicks) {
   for (const tracking::TrackScore& score :
-       tracking::score_tracking(kVideo, kTruth, {{4, 8}, {0, 1.5}, 0, 1})) {
+       tracking::score_tracking(kHuman, kTruth, {{4, 8}, {0, 1.5}, 0, 1})) {
     EXPECT_GE(score.gain(), 1.8) << score.spacing_frames << " frames, " << score.noise_px << " px";
     EXPECT_LT(score.tracked_px, 3)
         << score.spacing_frames << " frames, " << score.noise_px << " px";
@@ -30,7 +30,7 @@ tracking::Tracked tracked(const tracking::TrackOptions& options,
   keypoints.trim = FrameRange{3, 40};
   video::DecodeOptions watching;
   watching.camera = camera;
-  return tracking::track(kVideo, {tracking::marks_of(keypoints)}, options, watching);
+  return tracking::track(kHuman, {tracking::marks_of(keypoints)}, options, watching);
 }
 
 TEST(Track, CoversEveryFrameFromTheFirstMarkToTheLast) {

@@ -14,7 +14,7 @@
 namespace stride {
 namespace {
 
-const std::filesystem::path kData = STRIDE_TEST_DATA;
+const std::filesystem::path kClips = STRIDE_TEST_DATA;
 
 /// Frame i is grey of brightness 20 + 4 i.
 void write_ramp(const std::filesystem::path& file, int frames, cv::Size size, double rate_hz = 25) {
@@ -58,7 +58,7 @@ TEST(Video, DividesTimeByTheSlowMotionFactor) {
 }
 
 TEST(Video, KeepsTheTimesOfAVariableRate) {
-  video::Video video(kData / "variable_rate.mp4");
+  video::Video video(kClips / "variable_rate.mp4");
   const auto frames = all_frames(video);
   const int shown[] = {0, 1, 3, 4, 5, 7, 8, 9, 11, 12, 13};
   ASSERT_EQ(frames.size(), std::size(shown));
@@ -73,7 +73,7 @@ TEST(Video, KeepsTheTimesOfAVariableRate) {
 }
 
 TEST(Video, WidensPixelsThatAreNotSquare) {
-  video::Video video(kData / "wide_pixels.mp4");
+  video::Video video(kClips / "wide_pixels.mp4");
   EXPECT_EQ(video.info().stored_width_px, 48);
   EXPECT_EQ(video.info().width_px, 64);
   EXPECT_EQ(video.info().height_px, 32);
@@ -82,7 +82,7 @@ TEST(Video, WidensPixelsThatAreNotSquare) {
 }
 
 TEST(Video, TurnsFramesUpright) {
-  video::Video video(kData / "wide_pixels_turned.mp4");
+  video::Video video(kClips / "wide_pixels_turned.mp4");
   EXPECT_EQ(video.info().height_px, 48);
   EXPECT_EQ(video.info().width_px, 24);  // 32 pixels, each 3/4 as wide as high once turned
 }

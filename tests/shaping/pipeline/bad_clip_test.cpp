@@ -23,7 +23,7 @@ using testing::StartsWith;
 
 constexpr int kFrames = 60;
 
-struct Clip {
+struct BadClip {
   std::vector<cv::Mat> frames;
   Keypoints clicks;
   double rate_hz = 24;
@@ -33,10 +33,10 @@ struct Clip {
 };
 
 /// The jogger of small.mp4 in side view: three strides.
-Clip jogger() {
-  static const Clip good = [] {
+BadClip jogger() {
+  static const BadClip good = [] {
     const auto file = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos" / "small.mp4";
-    Clip clip;
+    BadClip clip;
     clip.clicks = load_keypoints(keypoints_file_of(file));
     video::Video video(file);
     video::VideoFrame frame;
@@ -46,13 +46,13 @@ Clip jogger() {
     clicked.erase(clicked.lower_bound(kFrames), clicked.end());
     return clip;
   }();
-  Clip copy = good;
+  BadClip copy = good;
   for (cv::Mat& frame : copy.frames) frame = frame.clone();
   return copy;
 }
 
 /// The verdict of `stride convert`, which the potential repeats if there is one.
-std::string verdict_of(Clip clip) {
+std::string verdict_of(BadClip clip) {
   const TemporaryFolder folder;
   const auto file = folder / "clip.mp4";
   video::VideoWriter writer(file, clip.rate_hz);
@@ -76,7 +76,7 @@ std::string verdict_of(Clip clip) {
 
 /// Every click at `where(x, y)`; a click that falls outside the frame is taken away.
 template <typename Where>
-void move_clicks(Clip& clip, Where where) {
+void move_clicks(BadClip& clip, Where where) {
   for (auto& [number, frame] : clip.clicks.frames)
     for (auto& click : frame.clicks) {
       if (!click) continue;
@@ -92,7 +92,7 @@ void shift(cv::Mat& image, double by_px) {
 }
 
 /// The same runner in the other direction.
-Clip mirrored(Clip clip) {
+BadClip mirrored(BadClip clip) {
   for (cv::Mat& frame : clip.frames) cv::flip(frame.clone(), frame, 1);
   move_clicks(clip, [&](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(clip.width() - 1 - p.x(), p.y());
@@ -107,7 +107,7 @@ Clip mirrored(Clip clip) {
 TEST(BadClip, TheGoodOneIsFine) { EXPECT_EQ(verdict_of(jogger()), "ok"); }
 
 TEST(BadClip, OneLegOnlyIsRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   for (auto& [number, frame] : clip.clicks.frames)
     for (const BodyPart part : {BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l})
       frame[part].reset();
@@ -115,7 +115,7 @@ TEST(BadClip, OneLegOnlyIsRefused) {
 }
 
 TEST(BadClip, ARunTowardsTheCameraIsRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   const double narrow = 0.15, middle = clip.width() / 2.0;
   for (cv::Mat& frame : clip.frames)
     cv::warpAffine(frame.clone(), frame, cv::Matx23d(narrow, 0, (1 - narrow) * middle, 0, 1, 0),
@@ -127,15 +127,15 @@ TEST(BadClip, ARunTowardsTheCameraIsRefused) {
 }
 
 TEST(BadClip, SomebodyWhoStandsIsRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   for (cv::Mat& frame : clip.frames) frame = clip.frames[0];
   for (auto& [number, frame] : clip.clicks.frames) frame = clip.clicks.frames.begin()->second;
   EXPECT_THAT(verdict_of(clip), AllOf(StartsWith("refused: "), HasSubstr("nobody runs here")));
 }
 
 TEST(BadClip, TwoPeopleWhoCrossAreToldOrRefused) {
-  Clip clip = jogger();
-  const Clip other = mirrored(clip);
+  BadClip clip = jogger();
+  const BadClip other = mirrored(clip);
   for (std::size_t i = 0; i < clip.frames.size(); ++i)
     cv::max(clip.frames[i], other.frames[i], clip.frames[i]);
   // In the middle third the clicks are on the runner in the other direction.
@@ -146,8 +146,8 @@ TEST(BadClip, TwoPeopleWhoCrossAreToldOrRefused) {
 
 TEST(BadClip, ACutIsTold) {
   // The camera stands elsewhere in the second half, and half a second is missing.
-  Clip clip = jogger();
-  const Clip before = clip;
+  BadClip clip = jogger();
+  const BadClip before = clip;
   const int cut = kFrames / 2, missing = 12;
   const double by_px = -60;
   clip.clicks.frames.erase(clip.clicks.frames.lower_bound(cut), clip.clicks.frames.end());
@@ -166,7 +166,7 @@ TEST(BadClip, ACutIsTold) {
 }
 
 TEST(BadClip, BlackFramesAreTold) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   for (int i = 20; i < 40; ++i) {
     clip.frames[static_cast<std::size_t>(i)].setTo(0);
     clip.clicks.frames.erase(i);
@@ -175,7 +175,7 @@ TEST(BadClip, BlackFramesAreTold) {
 }
 
 TEST(BadClip, AClipOnItsHeadIsRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   for (cv::Mat& frame : clip.frames) cv::flip(frame.clone(), frame, 0);
   move_clicks(clip, [&](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(p.x(), clip.height() - 1 - p.y());
@@ -184,7 +184,7 @@ TEST(BadClip, AClipOnItsHeadIsRefused) {
 }
 
 TEST(BadClip, AClipTurnedByNinetyDegreesIsRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   const int height = clip.height();
   for (cv::Mat& frame : clip.frames) cv::rotate(frame.clone(), frame, cv::ROTATE_90_CLOCKWISE);
   std::swap(clip.clicks.width_px, clip.clicks.height_px);
@@ -194,13 +194,13 @@ TEST(BadClip, AClipTurnedByNinetyDegreesIsRefused) {
 }
 
 TEST(BadClip, SlowMotionThatNobodyToldIsFoundAndNamed) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   clip.rate_hz /= 4;
   EXPECT_THAT(verdict_of(clip), HasSubstr("is it slow motion by about 4"));
 }
 
 TEST(BadClip, LessThanAStrideIsRefusedAndLittleMoreIsTold) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   const auto keep = [&](int frames) {
     clip.frames.resize(static_cast<std::size_t>(frames));
     clip.clicks.frames.erase(clip.clicks.frames.lower_bound(frames), clip.clicks.frames.end());
@@ -213,14 +213,14 @@ TEST(BadClip, LessThanAStrideIsRefusedAndLittleMoreIsTold) {
 
 TEST(BadClip, AWrongFrameRateIsTold) {
   for (const double factor : {0.4, 2.5}) {
-    Clip clip = jogger();
+    BadClip clip = jogger();
     clip.rate_hz *= factor;
     EXPECT_THAT(verdict_of(clip), HasSubstr("is the frame rate"));
   }
 }
 
 TEST(BadClip, WrongKeypointsAreRefused) {
-  Clip clip = jogger();
+  BadClip clip = jogger();
   std::mt19937_64 random(5);
   move_clicks(clip, [&](const Eigen::Vector2d&) {
     return Eigen::Vector2d(static_cast<double>(random() % 320),

@@ -21,7 +21,7 @@ Potential some_potential() {
   return potential;
 }
 
-network::Policy<double> some_policy() {
+network::Policy<double> point_mass_policy() {
   Random random(4);
   network::Policy<double> policy{
       .actor = network::Mlp<double>({.inputs = 4,
@@ -48,7 +48,7 @@ Recorded record(int rounds, const Potential& potential, int action_repeat, int r
   const environment::ObservationOptions options{
       .centre = false, .derived = false, .activations = false};
   const environment::Observer observer(PointMass().spec(), options, 0.05 * action_repeat);
-  const network::Policy<double> policy = some_policy();
+  const network::Policy<double> policy = point_mass_policy();
   const ddpg::Explorer<double>::Setup setup{.exploration = {},
                                             .action_repeat = action_repeat,
                                             .sigma_factor = 1,

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// An evaluation every 1000 decisions, always of the same distance.
-void write_run(const fs::path& run, double distance_m) {
+void write_even_run(const fs::path& run, double distance_m) {
   Table curve = training::new_curve();
   for (int i = 0; i <= 10; ++i) {
     std::vector<double> row(curve.columns.size(), 0.0);
@@ -29,12 +29,12 @@ void write_run(const fs::path& run, double distance_m) {
 class Compare : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_run(folder / "a" / "1", 2);
-    write_run(folder / "a" / "2", 8);
-    write_run(folder / "a_control" / "1", 1);
-    write_run(folder / "a_control" / "2", 4);
-    write_run(folder / "b" / "1", 16);
-    write_run(folder / "b_control" / "1", 1);
+    write_even_run(folder / "a" / "1", 2);
+    write_even_run(folder / "a" / "2", 8);
+    write_even_run(folder / "a_control" / "1", 1);
+    write_even_run(folder / "a_control" / "2", 4);
+    write_even_run(folder / "b" / "1", 16);
+    write_even_run(folder / "b_control" / "1", 1);
   }
   TemporaryFolder folder;
 };
@@ -59,8 +59,8 @@ TEST_F(Compare, OfArmsAloneIsTheirMeanDistance) {
 }
 
 TEST_F(Compare, LeavesOutPairsWithoutARatio) {
-  write_run(folder / "a" / "3", -1);
-  write_run(folder / "a_control" / "3", 1);
+  write_even_run(folder / "a" / "3", -1);
+  write_even_run(folder / "a_control" / "3", 1);
   EXPECT_THAT(
       experiments::compare(
           {.arms = {folder / "a"}, .controls = {folder / "a_control"}, .decisions = {5000}}),

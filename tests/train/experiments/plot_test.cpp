@@ -17,16 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run whose distance grows by `slope` metres a thousand decisions.
-void write_run(const fs::path& run, double slope) {
+/// A run whose distance grows by `slope` metres with each evaluation, after so many decisions.
+void write_run(const fs::path& run, double slope, double decisions = 1000) {
   Table curve = training::new_curve(), timing = training::new_timing();
   for (int i = 0; i <= 10; ++i) {
     std::vector<double> row(curve.columns.size(), 0.0);
-    row[0] = 1000 * i;
+    row[0] = decisions * i;
     row[1] = 30 * i;
     row[6] = slope * i;
     curve.rows.push_back(row);
-    timing.rows.push_back({1000.0 * i, 60.0 * i, 1, 1});
+    timing.rows.push_back({decisions * i, 60.0 * i, 1, 1});
   }
   save(curve, run / "curve.csv");
   save(timing, run / "timing.csv");
@@ -59,6 +59,15 @@ TEST(Plot, DrawsMeanAndStandardErrorAndLeavesScriptAndFigures) {
   EXPECT_THAT(read_file(folder / "p" / "figure.svg"), ::testing::HasSubstr("arm (2 seeds)"));
   EXPECT_EQ(read_file(folder / "p" / "figure.png").substr(1, 3), "PNG");
   EXPECT_TRUE(fs::exists(folder / "p" / "figure.gnuplot"));
+}
+
+TEST(Plot, BeyondAMillionTheAxisCountsMillions) {
+  TemporaryFolder folder;
+  write_run(folder / "run", 1, 150'000);
+  experiments::plot(experiments::arms_of({folder / "run"}), {.out = folder / "figure"});
+  const std::string picture = read_file(folder / "figure.svg");
+  for (const char* label : {"decisions (millions)", ">1.2<", ">1.4<"})
+    EXPECT_THAT(picture, ::testing::HasSubstr(label));
 }
 
 TEST(Plot, WatchedItIsDrawnAnewWhenACurveGrows) {

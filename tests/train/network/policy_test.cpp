@@ -12,7 +12,7 @@ namespace {
 const std::vector<std::string> kFeatures{"hip_flexion_r", "hip_flexion_l", "pelvis"};
 const std::vector<std::string> kActions{"push_r", "push_l"};
 
-network::Policy<float> some_policy() {
+network::Policy<float> small_policy() {
   Random random(3);
   network::Policy<float> policy{
       .actor = network::Mlp<float>({.inputs = 3,
@@ -33,7 +33,7 @@ network::Policy<float> some_policy() {
 
 TEST(PolicyFile, GivesTheSameActions) {
   TemporaryFolder folder;
-  const network::Policy<float> policy = some_policy();
+  const network::Policy<float> policy = small_policy();
   network::save_policy(policy, kFeatures, kActions, 3, folder / "agent.safetensors");
   const network::Policy<float> read =
       network::load_policy<float>(folder / "agent.safetensors", kFeatures, kActions);
@@ -45,7 +45,7 @@ TEST(PolicyFile, GivesTheSameActions) {
 TEST(PolicyFile, OfASymmetricPolicyMirrorsAfterReadingToo) {
   TemporaryFolder folder;
   const auto file = folder / "agent.safetensors";
-  network::Policy<float> policy = some_policy();
+  network::Policy<float> policy = small_policy();
   policy.symmetry = environment::right_leg_ahead(kFeatures, kActions);
   network::save_policy(policy, kFeatures, kActions, 3, file);
   EXPECT_EQ(network::load_tensors(file).meta("version"), "2");
@@ -63,7 +63,7 @@ TEST(PolicyFile, OfASymmetricPolicyMirrorsAfterReadingToo) {
 /// The action by the documented formula, as another program would compute it.
 TEST(PolicyFile, IsWhatItsDescriptionSays) {
   TemporaryFolder folder;
-  const network::Policy<float> policy = some_policy();
+  const network::Policy<float> policy = small_policy();
   network::save_policy(policy, kFeatures, kActions, 3, folder / "agent.safetensors");
   const network::Tensors file = network::load_tensors(folder / "agent.safetensors");
   EXPECT_EQ(file.meta("features"), "hip_flexion_r,hip_flexion_l,pelvis");
@@ -97,7 +97,7 @@ TEST(PolicyFile, IsWhatItsDescriptionSays) {
 
 TEST(PolicyFile, OfOtherFeaturesOrAnotherPrecisionIsRefused) {
   TemporaryFolder folder;
-  network::save_policy(some_policy(), kFeatures, kActions, 3, folder / "agent.safetensors");
+  network::save_policy(small_policy(), kFeatures, kActions, 3, folder / "agent.safetensors");
   const auto file = folder / "agent.safetensors";
   EXPECT_ERROR(network::load_policy<float>(file, {"a", "b", "c"}, kActions),
                "its features are not those");

@@ -16,7 +16,7 @@ network::Tensors example() {
   network::Tensors tensors;
   tensors.metadata = {{"format", "test"}};
   tensors.put("matrix", Eigen::MatrixXf(Eigen::Matrix<float, 2, 3>{{1, 2, 3}, {4, 5, 6}}));
-  tensors.put("vector", Eigen::VectorXd(Eigen::Vector2d(0.1, -7)));
+  tensors.put("vector", Eigen::VectorXd{{0.1, -7}});
   tensors.put("count", std::int64_t{-5});
   tensors.put_bytes("text", "abc");
   return tensors;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Potential some_potential() {
+Potential clip_potential() {
   Potential potential;
   potential.source = "clip.mp4";
   potential.model = "gait9dof18musc";
@@ -47,7 +47,7 @@ struct DemonstrationTest : ::testing::Test {
   training::EnvironmentOptions starts_on_reference;
 
   void SetUp() override {
-    save(some_potential(), potential);
+    save(clip_potential(), potential);
     starts_on_reference.reference_share = 0.5;
   }
 };
@@ -73,7 +73,7 @@ TEST_F(DemonstrationTest, AMissingRunIsAnErrorWithTheCureUnlessNoEpisodeStartsOn
 
 TEST_F(DemonstrationTest, WhatIsNoRunOnThisModelIsRefused) {
   const auto expect_refused = [&](auto change, const char* why) {
-    Potential spoilt = some_potential();
+    Potential spoilt = clip_potential();
     change(spoilt);
     save(spoilt, potential);
     EXPECT_ERROR(training::load_demonstration(potential, {}, {}), why);
@@ -95,13 +95,13 @@ TEST_F(DemonstrationTest, TheRunFolderHoldsCopiesAndNamesThem) {
   options.shaping.epsilon_m = 0.2;
   options.shaping.function = "pf1";
   options.shaping.index = "nearest";
-  training::save({.potential = some_potential(), .reference = some_run()}, run, options);
+  training::save({.potential = clip_potential(), .reference = some_run()}, run, options);
   EXPECT_EQ(options.shaping.potential, "potential.json");
   EXPECT_EQ(options.environment.reference, "reference.calibrated.csv");
 
   const training::Demonstration loaded = training::load_run_demonstration(options, run);
   EXPECT_EQ(loaded.reference->samples.size(), 80u);
-  EXPECT_EQ(loaded.potential->weight, 0.5 * some_potential().weight);
+  EXPECT_EQ(loaded.potential->weight, 0.5 * clip_potential().weight);
   EXPECT_EQ(loaded.potential->epsilon_m, 0.2);
   EXPECT_EQ(loaded.potential->function, inverse_distance("pf1"));
   EXPECT_EQ(loaded.potential->index, PotentialIndex::nearest);
@@ -112,7 +112,7 @@ TEST_F(DemonstrationTest, WeighsByTheRewardOfAStride) {
   training::TrainOptions options;
   options.environment.reference_share = 0;
   options.shaping.stride_share = 0.1;
-  Potential potential = some_potential();
+  Potential potential = clip_potential();
   potential.speed_m_s = 4;
   for (Keyframe& keyframe : potential.keyframes)
     keyframe.pose[PosePart::knee_r].x() += 0.1 * std::cos(2 * std::numbers::pi * keyframe.phase);

@@ -48,7 +48,7 @@ training::TrainOptions small_run() {
   return options;
 }
 
-Potential some_potential() {
+Potential point_mass_potential() {
   Potential potential;
   potential.source = "test";
   potential.model = "point mass";
@@ -87,7 +87,7 @@ TEST(Train, SolvesAPointMassInSeconds) {
 
 TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
   TemporaryFolder folder;
-  const Potential potential = some_potential();
+  const Potential potential = point_mass_potential();
   training::TrainOptions options = small_run();
   const std::string curve =
       trained(options, {.potential = potential, .reference = {}}, folder / "a");
@@ -99,7 +99,7 @@ TEST(Train, CurveDependsOnTheSeedAloneNotOnThreads) {
 
 TEST(Train, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TemporaryFolder folder;
-  const Potential potential = some_potential();
+  const Potential potential = point_mass_potential();
   training::TrainOptions options = small_run();
   options.run.decisions = 15000;
   options.run.checkpoint_s = 0.01;

@@ -14,12 +14,6 @@ using simd::sum;
 using simd::V2;
 using simd::V4;
 
-namespace {
-
-constexpr int kLegs = PlanarModel::kLegs;
-
-}  // namespace
-
 PlanarDynamics::PlanarDynamics(PlanarModel model, const simulation::EngineOptions& options)
     : model_(std::move(model)),
       dropped_(options.drop_contacts ? options.drop_share : 0),

@@ -11,8 +11,6 @@
 namespace stride::planar {
 namespace {
 
-constexpr int kLegs = PlanarModel::kLegs;
-
 /// Builds the paths of one muscle after the other, right and left leg together.
 class PathBuilder {
  public:

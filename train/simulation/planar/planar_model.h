@@ -115,6 +115,8 @@ struct PlanarModel {
   std::vector<Limit> limits;  // in the order of Model::limits
 };
 
+inline constexpr int kLegs = PlanarModel::kLegs;
+
 /// Throws Error with the reason and the cure `--engine simbody` if the model has another topology.
 PlanarModel planar_model(const osim::Model& model);
 

@@ -8,10 +8,6 @@
 namespace stride {
 namespace {
 
-SagittalModel default_model() {
-  return sagittal_model(osim::load_osim(osim::default_model_file()));
-}
-
 /// Derivatives against central differences. (ceres::GradientChecker hands Eigen objects across the
 /// border of a library that was compiled for another alignment.)
 void check(const ceres::CostFunction& cost, const std::vector<const double*>& blocks) {
@@ -50,7 +46,7 @@ void check(const ceres::CostFunction& cost, const std::vector<const double*>& bl
 }
 
 TEST(Residuals, HaveTheDerivativesOfFiniteDifferences) {
-  const SagittalModel model = default_model();
+  const SagittalModel model = default_sagittal_model();
   const Runner r = synthetic_runner();
   const double pelvis[2] = {3, 4}, ground[1] = {-0.9};
   const Directions directions(model);
@@ -93,7 +89,7 @@ TEST(Residuals, OfAPointAreTheSameWithAndWithoutTheChainRule) {
   const Runner r = synthetic_runner();
   const double pelvis[2] = {3, 4};
   const fit::PointResidual residual{
-      BodyPart::toe_l, Directions(default_model()), 5, -0.8, {20, -60}, 1.7};
+      BodyPart::toe_l, Directions(default_sagittal_model()), 5, -0.8, {20, -60}, 1.7};
   const std::vector<const double*> blocks{
       r.camera.data(), r.cadence.data(), r.body.data(),  r.sides.data(),     r.tilt.data(),
       r.hip.data(),    r.knee.data(),    r.ankle.data(), r.asymmetry.data(), pelvis};

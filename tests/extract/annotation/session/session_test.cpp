@@ -19,8 +19,8 @@
 namespace stride {
 namespace {
 
-const std::filesystem::path kVideos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
-const std::filesystem::path kData = std::filesystem::path(STRIDE_TEST_DATA) / "annotation";
+const std::filesystem::path kShipped = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
+const std::filesystem::path kAnnotated = std::filesystem::path(STRIDE_TEST_DATA) / "annotation";
 
 using Kind = annotation::AnnotationEvent::Kind;
 using Button = annotation::AnnotationEvent::Button;
@@ -29,7 +29,7 @@ using Mode = annotation::AnnotationSession::Mode;
 /// A session on the runner's clip, with nothing clicked.
 class Annotating : public ::testing::Test {
  protected:
-  Annotating() : frames(kVideos / "human.mp4") {
+  Annotating() : frames(kShipped / "human.mp4") {
     frames.wait();
     fresh.video = "human.mp4";
     fresh.video_sha256 = "00";
@@ -346,7 +346,7 @@ TEST_F(Annotating, AWindowKilledAtAHundredMomentsKeepsEveryClick) {
 }
 
 TEST_F(Annotating, PredictsBetweenClicks) {
-  const Keypoints truth = load_keypoints(kVideos / "human.keypoints.json");
+  const Keypoints truth = load_keypoints(kShipped / "human.keypoints.json");
   const annotation::Prediction prediction =
       annotation::predict(truth, frames, std::atomic<bool>(false)).value();
   EXPECT_NEAR(prediction.stride_frames, 0.689 * 30, 0.3);  // the period the clip was made with
@@ -523,19 +523,19 @@ TEST(AnnotationScript, AWholeAnnotationGivesTheGoldenFile) {
   const TemporaryFolder folder;
   const auto file = folder / "human.keypoints.json";
   {
-    video::FrameStore frames(kVideos / "human.mp4");
+    video::FrameStore frames(kShipped / "human.mp4");
     frames.wait();
     Keypoints fresh;
     fresh.video = "human.mp4";
-    fresh.video_sha256 = sha256_of_file(kVideos / "human.mp4");
+    fresh.video_sha256 = sha256_of_file(kShipped / "human.mp4");
     fresh.width_px = frames.info().width_px;
     fresh.height_px = frames.info().height_px;
     annotation::AnnotationJournal journal(file, fresh);
     annotation::AnnotationSession session(journal, frames);
-    annotation::run_script(session, kData / "human.jsonl", [] {});
+    annotation::run_script(session, kAnnotated / "human.jsonl", [] {});
   }
   const Keypoints made = load_keypoints(file);
-  const Keypoints golden = load_keypoints(kVideos / "human.keypoints.json");
+  const Keypoints golden = load_keypoints(kShipped / "human.keypoints.json");
   EXPECT_EQ(made.video_sha256, golden.video_sha256);
   EXPECT_EQ(made.direction, golden.direction);
   EXPECT_EQ(made.near_leg, golden.near_leg);

@@ -13,7 +13,7 @@
 namespace stride {
 namespace {
 
-const std::filesystem::path kData = std::filesystem::path(STRIDE_TEST_DATA) / "import";
+const std::filesystem::path kFolder = std::filesystem::path(STRIDE_TEST_DATA) / "import";
 
 struct Sample {
   const char* file;
@@ -69,7 +69,7 @@ TEST(ImportFormats, EverySampleGivesTheSameFigure) {
   for (const Sample& sample : kSamples) {
     SCOPED_TRACE(sample.file);
     const imports::Detections detections =
-        imports::import_points(kData / sample.file, options_of(sample));
+        imports::import_points(kFolder / sample.file, options_of(sample));
     EXPECT_EQ(detections.format, sample.format);
     ASSERT_EQ(static_cast<int>(detections.frames.size()), sample.frames);
     for (int i = 0; i < sample.frames; ++i) {
@@ -85,20 +85,20 @@ TEST(ImportFormats, EverySampleGivesTheSameFigure) {
 }
 
 TEST(ImportFormats, HiddenPointsCountHalfAndAbsentOnesNotAtAll) {
-  const imports::Detections cvat = imports::import_points(kData / "cvat_skeleton.xml");
+  const imports::Detections cvat = imports::import_points(kFolder / "cvat_skeleton.xml");
   EXPECT_EQ(cvat.frames[0][BodyPart::ankle_l].confidence, 0.5);
   EXPECT_EQ(cvat.frames[0][BodyPart::knee_r].confidence, 1);
   EXPECT_TRUE(cvat.frames[1][BodyPart::knee_l].present());
   EXPECT_FALSE(cvat.frames[2][BodyPart::knee_l].present());
-  const imports::Detections coco = imports::import_points(kData / "coco_annotations.json");
+  const imports::Detections coco = imports::import_points(kFolder / "coco_annotations.json");
   EXPECT_EQ(coco.frames[0][BodyPart::ankle_l].confidence, 0.5);
   EXPECT_FALSE(coco.frames[0][BodyPart::toe_l].present());
 }
 
 TEST(ImportFormats, NetworksAreNeverAsSureAsAPerson) {
   for (const char* file : {"mediapipe.json", "ultralytics.json", "rtmlib.json"})
-    EXPECT_LE(imports::import_points(kData / file).frames[0][BodyPart::knee_r].confidence, 0.95);
-  const auto mediapipe = imports::import_points(kData / "mediapipe_long.csv").frames[2];
+    EXPECT_LE(imports::import_points(kFolder / file).frames[0][BodyPart::knee_r].confidence, 0.95);
+  const auto mediapipe = imports::import_points(kFolder / "mediapipe_long.csv").frames[2];
   EXPECT_LT((px(mediapipe, BodyPart::toe_r) - Eigen::Vector2d(132, 206)).norm(), 1e-5);
   EXPECT_EQ(mediapipe.width_px, 1);  // shares of the picture
 }
@@ -129,13 +129,13 @@ TEST(ImportFormats, SeveralPeopleOfANetworkAreToldApart) {
 }
 
 TEST(ImportFormats, PointsThatCvatInterpolatedAreLeftOut) {
-  const imports::Detections points = imports::import_points(kData / "cvat_points.xml");
+  const imports::Detections points = imports::import_points(kFolder / "cvat_points.xml");
   EXPECT_FALSE(points.frames[1][BodyPart::ankle_l].present());
 }
 
 TEST(ImportFormats, MarkersInMetresOrMillimetresAreRefused) {
   const TemporaryFolder folder;
-  std::string trc = read_file(kData / "sports2d_px_person00.trc");
+  std::string trc = read_file(kFolder / "sports2d_px_person00.trc");
   trc.replace(trc.find("\tm\t"), 3, "\tmm\t");
   write_file_atomically(folder / "m.trc", trc);
   EXPECT_ERROR(imports::import_points(folder / "m.trc"),
@@ -213,8 +213,8 @@ TEST(ImportFormats, DamagedFilesImportOrThrowErrorAndNothingElse) {
     samples.push_back({file, "deeplabcut"});
   int imported = 0, refused = 0;
   for (const Sample& sample : samples) {
-    if (std::filesystem::is_directory(kData / sample.file)) continue;
-    const std::string content = read_file(kData / sample.file);
+    if (std::filesystem::is_directory(kFolder / sample.file)) continue;
+    const std::string content = read_file(kFolder / sample.file);
     imports::ImportOptions options = options_of(sample);
     for (int i = 0; i < 120; ++i) {
       options.format = i % 2 == 0 ? sample.format : "";

@@ -1,0 +1,21 @@
+# Writes OUTPUT, which makes each suite of a GoogleTest program one test of ctest: a process for each test would spend
+# most of its time loading the libraries of OpenCV.
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE ";" "\;" listed "${listed}")
+string(REPLACE "\n" ";" lines "${listed}")
+set(suites "")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^([^ ]+)\\.( |$)")
+    set(suite ${CMAKE_MATCH_1})
+    list(APPEND suites ${suite})
+    set(tests_of_${suite} 0)
+  elseif(line MATCHES "^  ")
+    math(EXPR tests_of_${suite} "${tests_of_${suite}} + 1")
+  endif()
+endforeach()
+set(script "")
+foreach(suite IN LISTS suites)
+  string(APPEND script "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
+         "set_tests_properties([=[${suite}]=] PROPERTIES COST ${tests_of_${suite}} WORKING_DIRECTORY [=[${FOLDER}]=])\n")
+endforeach()
+file(WRITE ${OUTPUT} "${script}")
