@@ -8,17 +8,14 @@
 #include "calibrate/report/report_plot.h"
 #include "extract/io/file.h"
 #include "extract/io/gnuplot.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::report {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kHeight_px = 1180;
 constexpr int kCurvePoints = 300;
-constexpr double kGravity_m_s2 = 9.81;
-constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
-                                          BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l};
 
 /// From an image's to the ground's axes, m.
 Vector2d on_ground(const AperiodicCalibration& own, const Vector2d& px) {
@@ -26,7 +23,7 @@ Vector2d on_ground(const AperiodicCalibration& own, const Vector2d& px) {
 }
 
 /// Labelled points of a part from the fitted pelvis, in axes of the ground: time, x, y, outlier.
-std::string marks(const Calibration& c, BodyPart part) {
+std::string passage_marks(const Calibration& c, BodyPart part) {
   const AperiodicCalibration& own = *c.aperiodic;
   Block points(fmt::format("{}_marks", name(part)));
   for (std::size_t i = 0; i < own.fit.marks.size(); ++i) {
@@ -134,7 +131,7 @@ unset key; unset xlabel
 )";
 
 /// Panel of one coordinate of a part: {0} origin, {1} part, {2} column, {3} label.
-constexpr const char* kPart = R"(
+constexpr const char* kPassagePart = R"(
 set origin {0}; set size 0.335,0.20; set ylabel '{3}' offset 1,0
 plot ${1}_l_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb '#7fa5d4', ${1}_r_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb '#dd8877', ${1}_l u 1:{2} w l ls 2, ${1}_r u 1:{2} w l ls 1, ${1}_r_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb '#222222', ${1}_l_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb '#222222'
 )";
@@ -150,7 +147,7 @@ std::string panels() {
   for (const int axis : {0, 1})
     for (int i = 0; i < 3; ++i) {
       const std::string part = std::array{"knee", "ankle", "toe"}[static_cast<std::size_t>(i)];
-      text += fmt::format(fmt::runtime(kPart),
+      text += fmt::format(fmt::runtime(kPassagePart),
                           fmt::format("{},{}", 0.332 * i, axis == 0 ? 0.405 : 0.21), part, 2 + axis,
                           fmt::format("{} {}, m", part, axis == 0 ? "forward" : "up"));
     }
@@ -190,7 +187,7 @@ void draw_passage(const Trajectory& trajectory, const SagittalModel& model, cons
       "set object 1 rectangle from {0},graph 0 to {1},graph 1 behind fc rgb '#eeeeee' fs solid "
       "noborder\n",
       c.run.take_off_s, c.run.landing_s);
-  for (const BodyPart part : kTraced) script += marks(c, part) + curve(c, directions, part);
+  for (const BodyPart part : kTraced) script += passage_marks(c, part) + curve(c, directions, part);
   script += joint(c, "hip", aperiodic::hip_r, aperiodic::hip_l) +
             joint(c, "knee_angle", aperiodic::knee_r, aperiodic::knee_l) +
             joint(c, "ankle_angle", aperiodic::ankle_r, aperiodic::ankle_l);

@@ -16,12 +16,6 @@
 namespace stride::report {
 namespace {
 
-// The picture.
-constexpr int kHeight_px = 1180;
-
-constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r,
-                                          BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l};
-
 double percent(double phase) { return 100 * (phase - std::floor(phase)); }
 
 /// Every labelled point of a part relative to the fitted pelvis, in axes of the ground, px at the

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,10 +15,13 @@
 
 namespace stride::report {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
-inline constexpr int kWidth_px = 1100;
+inline constexpr int kWidth_px = 1100, kHeight_px = 1180;
 // The strip of frames in the picture.
 inline constexpr int kStripLeft_px = 20, kStripTop_px = 42, kStrip_px = 1060, kStripHeight_px = 196;
+
+inline constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r,  BodyPart::ankle_r,
+                                                 BodyPart::toe_r,   BodyPart::knee_l,
+                                                 BodyPart::ankle_l, BodyPart::toe_l};
 
 /// A block of data of a gnuplot script.
 class Block {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "extract/io/statistics.h"
+#include "extract/tracking/limb_lengths.h"
 #include "extract/video/decoded_clip.h"
 
 namespace stride::tracking {
@@ -30,19 +31,6 @@ int joints_from_pelvis(BodyPart part) {
 const TrajectoryFrame* frame_of(const Trajectory& points, int frame) {
   const auto found = std::ranges::lower_bound(points.frames, frame, {}, &TrajectoryFrame::frame);
   return found != points.frames.end() && found->frame == frame ? &*found : nullptr;
-}
-
-/// Median length of thigh and shank.
-double leg_px(const Trajectory& points) {
-  std::vector<double> legs;
-  for (const TrajectoryFrame& frame : points.frames)
-    for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
-                                      std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {
-      const double leg = (frame[knee].p_px - frame[BodyPart::pelvis].p_px).norm() +
-                         (frame[ankle].p_px - frame[knee].p_px).norm();
-      if (std::isfinite(leg)) legs.push_back(leg);
-    }
-  return legs.empty() ? video::body_size_px(points) : median(std::move(legs));
 }
 
 /// (along, across) the limb that ends in a joint → the picture. Of a part without a limb: down.

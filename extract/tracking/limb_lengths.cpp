@@ -5,7 +5,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "extract/io/statistics.h"
+#include "extract/video/decoded_clip.h"
 
 namespace stride::tracking {
 namespace {
@@ -15,7 +19,7 @@ using Eigen::Vector2d;
 constexpr double kAround_s = 1;          // in which a limb keeps its length in the picture
 constexpr double kForeshortened = 0.08;  // of its length: a limb out of the picture's plane
 constexpr double kLeastConfidence = 0.05;
-constexpr int kFewest = 8;  // limbs that say how long it is
+constexpr int kFewestLimbs = 8;  // limbs that say how long it is
 constexpr int kIterations = 3;
 
 constexpr bool is_limb(const Bone& bone) { return row(bone.to).required; }
@@ -51,7 +55,7 @@ std::optional<double> usual_px(const std::vector<Length>& lengths, double time_s
   std::vector<Length> near;
   for (const Length& each : lengths)
     if (std::abs(each.time_s - time_s) < kAround_s) near.push_back(each);
-  if (near.size() < kFewest) return std::nullopt;
+  if (near.size() < kFewestLimbs) return std::nullopt;
   return weighted_median(near);
 }
 
@@ -95,6 +99,18 @@ Places needed_px(const TrajectoryFrame& frame, const std::vector<Limb>& limbs,
 }
 
 }  // namespace
+
+double leg_px(const Trajectory& points) {
+  std::vector<double> legs;
+  for (const TrajectoryFrame& frame : points.frames)
+    for (const auto& [knee, ankle] : {std::pair(BodyPart::knee_r, BodyPart::ankle_r),
+                                      std::pair(BodyPart::knee_l, BodyPart::ankle_l)}) {
+      const double leg = (frame[knee].p_px - frame[BodyPart::pelvis].p_px).norm() +
+                         (frame[ankle].p_px - frame[knee].p_px).norm();
+      if (std::isfinite(leg)) legs.push_back(leg);
+    }
+  return legs.empty() ? video::body_size_px(points) : median(std::move(legs));
+}
 
 int doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
   struct Known {

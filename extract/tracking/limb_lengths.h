@@ -4,6 +4,9 @@
 
 namespace stride::tracking {
 
+/// Median length of thigh and shank together; the size of the body where no leg is whole.
+double leg_px(const Trajectory& points);
+
 /// Lowers the confidence of a detector's points that make a thigh or a shank longer or shorter than
 /// it is on the frames around. Which end is to blame is told by least squares: the points of a
 /// frame are moved until the limbs have their usual lengths, the less sure ones farther, and who

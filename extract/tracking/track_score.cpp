@@ -11,6 +11,7 @@
 #include "extract/io/statistics.h"
 #include "extract/io/table.h"
 #include "extract/tracking/cubic_spline.h"
+#include "extract/tracking/limb_lengths.h"
 
 namespace stride::tracking {
 namespace {
@@ -91,17 +92,6 @@ std::vector<double> errors_px(const Trajectory& result, const Trajectory& truth,
       for (const BodyPart part : kScoredParts)
         errors.push_back((frame[part].p_px - (*true_frames.at(frame.frame))[part].p_px).norm());
   return errors;
-}
-
-/// Median length from pelvis to knee to ankle.
-double leg_px(const Trajectory& truth) {
-  std::vector<double> lengths;
-  for (const TrajectoryFrame& frame : truth.frames)
-    for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
-                                      std::pair{BodyPart::knee_l, BodyPart::ankle_l}})
-      lengths.push_back((frame[BodyPart::pelvis].p_px - frame[knee].p_px).norm() +
-                        (frame[knee].p_px - frame[ankle].p_px).norm());
-  return median(std::move(lengths));
 }
 
 /// Adds the points that were not clicked to the bins of their confidence.

@@ -9,13 +9,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kFrames = 40;
+constexpr int kSwingFrames = 40;
 constexpr double kNoise_legs = 0.015;
 
 /// A leg of 100 px that swings, and the other half a stride behind; all points equally sure.
-Trajectory runner() {
+Trajectory swinging_legs() {
   Trajectory points;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kSwingFrames; ++i) {
     TrajectoryFrame& frame = points.frames.emplace_back();
     frame.frame = i;
     frame.time_s = i / 30.0;
@@ -36,14 +36,14 @@ Trajectory runner() {
 }
 
 TEST(LimbLengths, LeaveABodyAlone) {
-  Trajectory points = runner();
+  Trajectory points = swinging_legs();
   EXPECT_EQ(doubt_broken_limbs(points, kNoise_legs), 0);
   for (const TrajectoryFrame& frame : points.frames)
     for (const BodyPart part : kRequiredParts) EXPECT_NEAR(frame[part].confidence, 0.6, 1e-6);
 }
 
 TEST(LimbLengths, TellWhichPointIsToBlame) {
-  Trajectory points = runner();
+  Trajectory points = swinging_legs();
   TrajectoryFrame& frame = points.frames[20];
   const Vector2d up = 0.4 * (frame[BodyPart::pelvis].p_px - frame[BodyPart::knee_r].p_px);
   frame[BodyPart::knee_r].p_px += up;
@@ -58,7 +58,7 @@ TEST(LimbLengths, TellWhichPointIsToBlame) {
 }
 
 TEST(LimbLengths, SayNothingOfFewFrames) {
-  Trajectory points = runner();
+  Trajectory points = swinging_legs();
   points.frames.resize(3);
   points.frames[1][BodyPart::knee_r].p_px.y() += 60;
   doubt_broken_limbs(points, kNoise_legs);
