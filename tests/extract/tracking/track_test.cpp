@@ -56,7 +56,7 @@ TEST(Track, IsNearlyTheSameFromPackedCrops) {
   packed.camera = false;
   packed.most_bytes = 1e5;  // two crops
   const Trajectory whole = tracked({}, keypoints).trajectory,
-                   other = tracking::track(kVideo, {tracking::marks_of(keypoints)}, {}, packed)
+                   other = tracking::track(kHuman, {tracking::marks_of(keypoints)}, {}, packed)
                                .trajectory;
   ASSERT_EQ(whole.frames.size(), other.frames.size());
   for (std::size_t i = 0; i < whole.frames.size(); ++i)
