@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
@@ -120,8 +122,9 @@ void renumber_after_dropouts(const fs::path& video, int frames, Trajectory& mark
   }
 }
 
-/// Points that all lie in one place are no body. (Normalised coordinates are told elsewhere.)
-void check_body(const std::string& file, const Trajectory& marks) {
+/// Points that all lie in one place are no body: refused of a network that always finds a whole
+/// one, told of parts that somebody named. (Normalised coordinates are told elsewhere.)
+void check_body(const imports::Detections& detections, const Trajectory& marks) {
   constexpr double kLeast_px = 4, kNormalised = 2;
   constexpr int kLeastPoints = 3;  // with fewer of a frame they say nothing of a body
   int most_points = 0;
@@ -136,9 +139,13 @@ void check_body(const std::string& file, const Trajectory& marks) {
     largest_px = std::max(largest_px, box.diagonal().norm());
     farthest = std::max(farthest, box.max().maxCoeff());
   }
-  require(most_points < kLeastPoints || largest_px > kLeast_px || farthest <= kNormalised,
-          "{}: expected a person: the points of each frame lie within {:.1f} px of one another",
-          file, largest_px);
+  if (most_points < kLeastPoints || largest_px > kLeast_px || farthest <= kNormalised) return;
+  const std::string what = fmt::format(
+      "{}: expected a person: the points of each frame lie within {:.1f} px of one another",
+      detections.file, largest_px);
+  constexpr std::array<std::string_view, 3> kWhole{"mediapipe", "ultralytics", "rtmpose"};
+  require(std::ranges::find(kWhole, detections.format) == kWhole.end(), "{}", what);
+  warn("{}", what);
 }
 
 /// Coordinates that are no pixels of this picture; a few points outside it are left out.
@@ -294,7 +301,7 @@ LabelledClip points_on(const fs::path& file, const imports::Detections& detectio
   check_y_up(options.import, info, marks);
   renumber(detections, options.import, static_cast<int>(times_s.size()), marks);
   check_places(info, marks);
-  check_body(detections.file, marks);
+  check_body(detections, marks);
   check_aspect(options.import, info, marks);
   check_posture(marks);
   check_layout(marks);

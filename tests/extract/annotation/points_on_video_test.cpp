@@ -170,9 +170,12 @@ TEST(PointsOnVideo, ThatAllLieInOnePlaceAreNobody) {
   imports::Detections spot = truth();
   spot.file = "spot.csv";
   for (imports::ImportedFrame& frame : spot.frames)
-    for (Point& point : frame.points) point.p_px = {320, 180};
-  EXPECT_ERROR(told(spot),
-               "spot.csv: expected a person: the points of each frame lie within 0.0 px");
+    for (Point& point : frame.points) point.p_px = {160, 90};
+  const char* kWhat = "spot.csv: expected a person: the points of each frame lie within 0.0 px";
+  spot.format = "mediapipe";
+  EXPECT_ERROR(told(spot), kWhat);
+  spot.format = "deeplabcut";
+  EXPECT_THAT(told(spot).warnings, ::testing::HasSubstr(kWhat));
 }
 
 }  // namespace
