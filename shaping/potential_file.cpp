@@ -3,7 +3,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
@@ -84,18 +83,6 @@ bool is_finite(const Pose& pose) {
   return std::ranges::all_of(pose.m, [](double each) { return std::isfinite(each); });
 }
 
-Json parse(const std::string& content, const std::string& file) {
-  try {
-    return Json::parse(content);
-  } catch (const Json::parse_error& error) {
-    throw Error(
-        fmt::format("{}: is not JSON, at {}: expected a potential; make one with `stride convert`",
-                    file, place_of_byte(content, error.byte > 0 ? error.byte - 1 : 0)));
-  } catch (const Json::exception&) {
-    throw Error(fmt::format("{}: is not JSON: a number is too large", file));
-  }
-}
-
 void require_format(const Node& root) {
   require(root.json.is_object() && root.json.contains("format"),
           "{}: is not a potential: the key format = \"{}\" is missing; make one with `stride "
@@ -146,7 +133,7 @@ Potential load_potential(const std::filesystem::path& path) {
   require(!content.starts_with("# stride"),
           "{}: is a table, a potential is needed; make one with `stride convert {} -o DIR`", file,
           file);
-  const Json json = parse(content, file);
+  const Json json = parse_json(content, file, "a potential; make one with `stride convert`");
   const Node root{json, file, ""};
   require_format(root);
   Potential potential;
@@ -205,7 +192,7 @@ void save(const Potential& potential, const std::filesystem::path& file) {
       {"weight", potential.weight},
       {"keyframes", keyframes}};
   if (potential.movement != kDefaultMovement) json["movement"] = potential.movement;
-  write_file_atomically(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json_text(json));
 }
 
 }  // namespace stride

@@ -1,8 +1,7 @@
 #include "calibrate/report/report_plot.h"
 
-#include <openssl/evp.h>
-
 #include "calibrate/report/report_frames.h"
+#include "extract/io/file.h"
 #include "extract/io/gnuplot.h"
 
 namespace stride::report {
@@ -19,15 +18,6 @@ set tics nomirror scale 0.5 textcolor rgb '#444444'
 set grid ytics lc rgb '#eeeeee' lt 1
 set multiplot
 )";
-
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and the zero that OpenSSL adds
-  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                  reinterpret_cast<const unsigned char*>(bytes.data()),
-                  static_cast<int>(bytes.size()));
-  text.pop_back();
-  return text;
-}
 
 }  // namespace
 
@@ -60,8 +50,8 @@ std::string with_strip(std::string svg, const std::filesystem::path& video,
   svg.insert(end, fmt::format("<image x='{}' y='{}' width='{}' height='{}' "
                               "href='data:image/jpeg;base64,{}'/>\n",
                               kStripLeft_px, kStripTop_px, kStrip_px, kStripHeight_px,
-                              base64(keyframe_strip(video, trajectory, model, c, frames,
-                                                    2 * kStrip_px, 2 * kStripHeight_px))));
+                              base64_of(keyframe_strip(video, trajectory, model, c, frames,
+                                                       2 * kStrip_px, 2 * kStripHeight_px))));
   return svg;
 }
 

@@ -43,7 +43,7 @@ void write_json(const Trajectory& trajectory, const fs::path& file) {
                   {"rate_hz", trajectory.rate_hz},
                   {"direction", name_or_empty(kFacings, trajectory.direction)},
                   {"frames", frames}};
-  write_file_atomically(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json_text(json));
 }
 
 void write_trc(const Trajectory& trajectory, const fs::path& file) {

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
-#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/skeleton/movement.h"
@@ -112,17 +111,7 @@ void read_frame(const Json& json, const std::string& file, Keypoints& keypoints)
 }
 
 Json parsed(const fs::path& file) {
-  const std::string text = read_file(file);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw Error(
-        fmt::format("{}: not valid JSON at {}: expected a file of clicks, as stride annotate "
-                    "writes it",
-                    file.string(), place_of_byte(text, error.byte > 0 ? error.byte - 1 : 0)));
-  } catch (const Json::exception&) {
-    throw Error(fmt::format("{}: not valid JSON: a number is too large", file.string()));
-  }
+  return parse_json(read_file(file), file, "a file of clicks, as stride annotate writes it");
 }
 
 Json json_of(const Click& click) {
@@ -272,7 +261,7 @@ std::string text_of(const Keypoints& k) {
   add_others(json, k.other_json);
   json["frames"] = Json::array();
   for (const auto& [number, frame] : k.frames) json["frames"].push_back(json_of(number, frame));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 void save(const Keypoints& k, const fs::path& file) {

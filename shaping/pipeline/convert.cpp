@@ -54,10 +54,9 @@ std::string left_out(const fs::path& file) {
 
 /// source.points of a potential: "clicks", "network" or "mixed".
 void say_whose_points(const fs::path& potential, const std::string& points) {
-  auto json = nlohmann::ordered_json::parse(read_file(potential));
+  auto json = parse_json(read_file(potential), potential, "a potential");
   json["source"]["points"] = points;
-  write_file_atomically(
-      potential, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  write_file_atomically(potential, json_text(json));
 }
 
 /// One input and its intermediate results.
@@ -226,9 +225,7 @@ class Clip {
                                       {"rms_cm", result_.rms_cm},
                                       {"points", result_.points},
                                       {"verdict", result_.verdict}};
-    write_file_atomically(
-        out(".converted.json"),
-        json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_file_atomically(out(".converted.json"), json_text(json));
   }
 
   fs::path input_;

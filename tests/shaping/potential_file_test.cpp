@@ -58,8 +58,8 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
   EXPECT_ERROR(load(with(hamner_text(), "\"pf3\"", "\"pf9\"")),
                "function = 'pf9': must be one of pf1, pf2, pf3, pf4");
   EXPECT_ERROR(load(with(hamner_text(), "0.6899", "0")), "stride.period_s = 0: must be positive");
-  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "NaN")), "p.json: is not JSON");
-  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "1e999")), "p.json: is not JSON");
+  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "NaN")), "p.json: not valid JSON");
+  EXPECT_ERROR(load(with(hamner_text(), "0.6899", "1e999")), "p.json: not valid JSON");
   EXPECT_ERROR(load(with(hamner_text(), "\"phase\": 0.125", "\"phase\": 0.2")),
                "keyframes[1].phase = 0.2: must be 0.125");
   EXPECT_ERROR(load(with(hamner_text(), "\"phase\": 0.125", "\"phase\": null")),

@@ -188,9 +188,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
 
   const fs::path out = options.out.empty() ? run : options.out;
   evaluation.file = out / "evaluation.json";
-  write_file_atomically(
-      evaluation.file,
-      to_json(evaluation, agent).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(evaluation.file, json_text(to_json(evaluation, agent)));
   write_file_atomically(out / "evaluation.mot", rollout::motion_file(median));
   write_file_atomically(out / "evaluation.sto", rollout::states_file(median));
   if (!options.trajectory.empty()) {

@@ -14,7 +14,7 @@
 #include "train/evaluation/evaluate.h"
 #include "train/experiments/experiment_report.h"
 #include "train/ppo/train_run.h"
-#include "train/task/milestone.h"
+#include "train/task/task.h"
 #include "train/training/runner_factory.h"
 #include "train/training/thread_pool.h"
 

@@ -1,5 +1,5 @@
 #include "train/experiments/experiment_report.h"
-#include "train/task/milestone.h"
+#include "train/task/task.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "train/page/html.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <map>
 #include <sstream>
@@ -38,15 +37,6 @@ footer { margin-top: 3rem; color: #777; font-size: .85rem; }
 }
 @media print { body { max-width: none; font-size: 11pt; } details > pre { display: none; } }
 )";
-
-std::string base64(std::string_view bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
 
 /// `code` and **strong** of a line, escaped.
 std::string inline_markup(std::string_view line) {
@@ -99,7 +89,7 @@ std::string data_uri(std::string_view bytes, std::string_view kind) {
   const auto type = kinds.find(kind);
   require(type != kinds.end(), "page: a file of kind '{}' cannot be shown; svg, png, jpg, mp4 can",
           kind);
-  return fmt::format("data:{};base64,{}", type->second, base64(bytes));
+  return fmt::format("data:{};base64,{}", type->second, base64_of(bytes));
 }
 
 std::string data_uri(const std::filesystem::path& file) {

@@ -16,9 +16,8 @@ constexpr double kFallHeight_m = 0.45;  // of the pelvis; who lands deep has it 
 /// What both jumps share: flight, landing, and standing after it.
 class Jump : public Task {
  public:
-  explicit Jump(const osim::Model& model) : ankles_{model.body("talus_r"), model.body("talus_l")} {
-    for (const osim::Body& body : model.bodies) weight_N_ -= body.mass_kg * model.gravity_m_s2[1];
-  }
+  explicit Jump(const osim::Model& model)
+      : ankles_{model.body("talus_r"), model.body("talus_l")}, bearing_N_(task::bearing_N(model)) {}
 
   void start(const Moment& first) override {
     airborne_s_ = standing_s_ = measure_m_ = paid_m_ = flight_m_ = flown_m_ = 0;
@@ -73,7 +72,7 @@ class Jump : public Task {
 
   std::array<bool, 2> feet_down(const Moment& moment) const {
     const auto& force = moment.kinematics.ground_reaction_N;
-    return {force[0].y > kBearingShare * weight_N_, force[1].y > kBearingShare * weight_N_};
+    return {force[0].y > bearing_N_, force[1].y > bearing_N_};
   }
 
   bool flies() const { return airborne_s_ > kShortestFlight_s - 1e-9; }
@@ -121,7 +120,7 @@ class Jump : public Task {
   }
 
   std::array<int, 2> ankles_;  // indices into Model::bodies
-  double weight_N_ = 0;
+  double bearing_N_;
   double start_x_m_ = 0;
   Place left_, take_off_;  // when a foot was last on the ground; when the flight began
   double airborne_s_ = 0, standing_s_ = 0, measure_m_ = 0;

@@ -52,9 +52,7 @@ std::unique_ptr<Task> speed(const TaskOptions& options, const osim::Model&) {
 }
 
 std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model) {
-  double weight_N = 0;
-  for (const osim::Body& body : model.bodies) weight_N -= body.mass_kg * model.gravity_m_s2[1];
-  return std::make_unique<Speed>(options, kBearingShare * weight_N);
+  return std::make_unique<Speed>(options, bearing_N(model));
 }
 
 }  // namespace stride::task

@@ -5,7 +5,6 @@
 
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
-#include "train/task/milestone.h"
 #include "train/task/tasks.h"
 
 namespace stride::task {
@@ -35,6 +34,12 @@ const Row& row(std::string_view name) {
 }
 
 }  // namespace
+
+double bearing_N(const osim::Model& model) {
+  double weight_N = 0;
+  for (const osim::Body& body : model.bodies) weight_N -= body.mass_kg * model.gravity_m_s2[1];
+  return 0.05 * weight_N;
+}
 
 std::unique_ptr<Task> make_task(const TaskOptions& options, const osim::Model& model) {
   return row(options.name).make(options, model);

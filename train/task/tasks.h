@@ -4,8 +4,8 @@
 
 namespace stride::task {
 
-inline constexpr double kBearingShare =
-    0.05;  // of the body's weight, on a foot that is on the ground
+/// What a foot on the ground bears at least: 5 % of the body's weight.
+double bearing_N(const osim::Model& model);
 
 // The tasks; each in the file of its name. task.cpp has their table.
 
