@@ -9,7 +9,8 @@ namespace stride::rollout {
 namespace {
 
 constexpr double kBearing = 0.05;  // of the body's weight
-constexpr double kShortest_s = 0.03;
+constexpr double kShortestContact_s = 0.03;
+constexpr double kShortestSwing_s = 0.1;  // no foot swings forward in less
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -18,14 +19,14 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Replaces runs of equal values shorter than `shortest` frames by the value before them.
-void remove_short_runs(std::vector<bool>& values, std::size_t shortest) {
+/// Replaces runs of `value` shorter than `shortest` frames by what is before them.
+void remove_short_runs(std::vector<bool>& values, bool value, std::size_t shortest) {
   std::size_t start = 0;
   for (std::size_t i = 1; i <= values.size(); ++i) {
     if (i < values.size() && values[i] == values[start]) continue;
-    if (start > 0 && i < values.size() && i - start < shortest)
+    if (values[start] == value && start > 0 && i < values.size() && i - start < shortest)
       std::fill(values.begin() + static_cast<std::ptrdiff_t>(start),
-                values.begin() + static_cast<std::ptrdiff_t>(i), values[start - 1]);
+                values.begin() + static_cast<std::ptrdiff_t>(i), !value);
     start = i;
   }
 }
@@ -49,7 +50,11 @@ std::vector<FootContact> foot_contacts(const Rollout& rollout, const osim::Model
     for (const RolloutFrame& frame : frames)
       down.push_back(frame.kinematics.ground_reaction_N[static_cast<std::size_t>(side)].y >
                      threshold);
-    remove_short_runs(down, static_cast<std::size_t>(std::lround(kShortest_s / step_s)));
+    const auto frames_of = [&](double time_s) {
+      return static_cast<std::size_t>(std::lround(time_s / step_s));
+    };
+    remove_short_runs(down, false, frames_of(kShortestSwing_s));
+    remove_short_runs(down, true, frames_of(kShortestContact_s));
     for (std::size_t i = 1; i < down.size(); ++i) {
       if (!down[i] || down[i - 1]) continue;
       std::size_t end = i;

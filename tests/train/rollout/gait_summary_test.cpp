@@ -108,6 +108,20 @@ TEST_F(Clockwork, ChatterShorterThan30MsIsNoStep) {
   EXPECT_EQ(rollout::foot_contacts(rollout_, model_).size(), steps);
 }
 
+// A foot that leaves the ground for 60 ms in the middle of each stance, as on a stiff floor.
+TEST_F(Clockwork, AFootThatReboundsMakesOneStep) {
+  for (std::size_t i = 0; i < rollout_.frames.size(); ++i)
+    for (const std::size_t side : {0u, 1u}) {
+      const std::size_t in_stride = (i + 35 * side) % 70;
+      if (in_stride >= 8 && in_stride < 14)
+        rollout_.frames[i].kinematics.ground_reaction_N[side].y = 0;
+    }
+  const rollout::GaitSummary gait = rollout::gait_of(rollout_, model_);
+  EXPECT_NEAR(gait.cadence_per_min, 120 / 0.7, 2);
+  EXPECT_NEAR(gait.leg_phase, 0.5, 0.01);
+  EXPECT_NEAR(gait.duty_factor, 0.3, 0.02);
+}
+
 TEST_F(Clockwork, ARunnerThatStandsHasNoSteps) {
   for (rollout::RolloutFrame& frame : rollout_.frames) {
     frame.state.q[simulation::kPelvisX] = 0;
