@@ -12,7 +12,7 @@ train() {  # FOLDER: begins it, or goes on
   if [ -e "$1/config.toml" ]; then
     exec "$stride" train --resume "$1"
   fi
-  exec "$stride" train --preset demo --baseline --seed "$seed" --out "$1" --decisions $decisions \
+  exec "$stride" train --preset ddpg --baseline --seed "$seed" --out "$1" --decisions $decisions \
       --set run.warm_up=2000 --set run.evaluate_every=2000 --set run.checkpoint_s=0.2 --set replay.capacity=20000
 }
 

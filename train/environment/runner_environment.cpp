@@ -24,6 +24,11 @@ simulation::EngineOptions engine_options(const RunnerOptions& options) {
 /// Depth of the feet in the soft ground in quiet standing, m.
 constexpr double kStandingDepth_m = 0.025;
 
+double backward_knees_rad(const simulation::RunnerState& state) {
+  return std::max(state.q[simulation::kKneeRight], 0.0) +
+         std::max(state.q[simulation::kKneeLeft], 0.0);
+}
+
 double deepest_contact(const osim::Model& model, const simulation::RunnerKinematics& kinematics) {
   double deepest = 0;
   for (const osim::ContactForce& contact : model.contacts)
@@ -46,6 +51,7 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
       task_(task::make_task(options.task, model)),
       sensors_(model),
       robust_features_(model, options.rules),
+      legs_together_(movement(options.task.movement).legs == Legs::together),
       knee_r_(model.body("tibia_r")),
       knee_l_(model.body("tibia_l")) {
   competition::check_scene_options(options.difficulty, options.max_obstacles);
@@ -55,6 +61,7 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
           options.max_steps);
   require(options.foot == "ankle" || options.foot == "toe", "foot \"{}\": must be ankle or toe",
           options.foot);
+  require(options.backward_knees >= 0, "backward_knees = {}: must be >= 0", options.backward_knees);
   require(options.reference_share >= 0 && options.reference_share <= 1,
           "reference_share = {}: must be in [0, 1]", options.reference_share);
   require(!options.reference || options.reference->samples.size() >= 3,
@@ -150,7 +157,7 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
     finite = std::isfinite(action[i]);
     excitations[i] = std::clamp(action[i], 0.0, 1.0);
   }
-  if (movement(options_.task.movement).legs == Legs::together)  // one decision for both
+  if (legs_together_)  // one decision for both
     std::copy_n(excitations.begin(), simulation::kMusclesOfLeg,
                 excitations.begin() + simulation::kMusclesOfLeg);
   const double x_before = engine_->state().q[simulation::kPelvisX];
@@ -167,7 +174,8 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
   reward_ = competition::step_reward(x_before, engine_->state(), kinematics_);
   observe();
   const task::Outcome outcome = task_->step({engine_->state(), kinematics_, reward_});
-  step_.reward = outcome.reward;
+  step_.reward = outcome.reward - options_.backward_knees * competition::kStep_s *
+                                      backward_knees_rad(engine_->state());
   step_.failed = !report_.ok;
   step_.terminated = step_.failed || outcome.end == task::End::fall;
   step_.truncated =

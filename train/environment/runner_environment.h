@@ -37,6 +37,9 @@ struct RunnerOptions {
   /// Under nips2017, false only to find out what they do: O1 and O2 of competition::Rules.
   bool raw_fibres = true, drop_contacts = true;
   double drop_share = 1;  // of the force of a contact after one that pulls
+  /// What a knee that bends backward takes from the reward, m/s per rad; 0 in the competition. The
+  /// model's knees have springs from 10° on, on which an agent runs with straight legs.
+  double backward_knees = 0;
 };
 
 /// "Learning to Run": nine degrees of freedom, eighteen muscles, obstacles; observation as in
@@ -84,6 +87,7 @@ class RunnerEnvironment final : public Environment {
   competition::Sensors sensors_;
   LatePositions late_positions_;
   RobustFeatures robust_features_;
+  bool legs_together_;
   int knee_r_, knee_l_, foot_r_, foot_l_;  // indices into Model::bodies
 
   competition::Scene scene_;

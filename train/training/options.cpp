@@ -135,6 +135,9 @@ std::vector<Field> fields(TrainOptions& o) {
       {"reward.fall", "added to the reward of a fall while training", &o.reward.fall},
       {"reward.alive_per_s", "added to the reward while training, each simulated second",
        &o.reward.alive_per_s},
+      {"reward.backward_knees",
+       "taken while training, for each second and radian that a knee bends backward",
+       &o.environment.backward_knees, 0, 1000},
 
       {"shaping.potential", "file in the run folder; empty: no shaping", &o.shaping.potential},
       {"shaping.source", "where that file came from: the film finds its video there",

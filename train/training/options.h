@@ -43,6 +43,7 @@ struct EnvironmentOptions {
   double drop_share = 1;                 // of its force, in training
   double accuracy = 1e-3;                // of the integration
   double training_accuracy = 0;          // of training episodes; 0: the same
+  double backward_knees = 0;             // their cost in training, m/s per rad
   std::string reference;                 // calibrated run, as it was copied into the run folder
   double reference_share = 0.7;          // of training episodes start on it
   bool reference_by_slot = false;        // in that share of the environments all episodes do
@@ -93,7 +94,7 @@ struct PpoOptions {
   std::string start;  // checkpoint whose networks the run begins with, as copied into its folder
 };
 
-/// Everything a run depends on. Defaults are those of the preset `stride`.
+/// Everything a run depends on. Defaults are those of the preset `ddpg`.
 struct TrainOptions {
   RunOptions run = {};
   EnvironmentOptions environment = {};

@@ -29,6 +29,7 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options,
     if (slot >= 0 && options.training_accuracy > 0) own.accuracy = options.training_accuracy;
     if (slot >= 0) {
       own.drop_share = options.drop_share;
+      own.backward_knees = options.backward_knees;
       own.flat_share = options.flat_share;
       own.few_share = options.few_share;
     }

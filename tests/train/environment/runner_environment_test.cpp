@@ -209,6 +209,30 @@ TEST_P(Runner, StartsOnAReferenceMotionWithItsSpeeds) {
   EXPECT_GT(phases.size(), 5u);
 }
 
+TEST_P(Runner, AKneeThatBendsBackwardCostsAndOneThatBendsForwardDoesNot) {
+  environment::RunnerOptions free = options();
+  free.reference.emplace();
+  CalibratedSample sample;
+  sample.coordinates = {0,   0,    0.95, 0.2, 0.3,
+                        0.1, -0.2, -0.8, 0};  // right knee back, left one bent
+  for (int i = 0; i < 3; ++i) {
+    sample.time_s = 0.01 * i;
+    free.reference->samples.push_back(sample);
+  }
+  environment::RunnerOptions charged = free;
+  charged.backward_knees = 4;
+  environment::RunnerEnvironment a(model_, free), b(model_, charged);
+  a.reset(0), b.reset(0);
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(simulation::kMuscles);
+    const double without = a.step(rest).reward, with = b.step(rest).reward;
+    const double knee_rad = a.engine().state().q[simulation::kKneeRight];
+    EXPECT_GT(knee_rad, 0.05);
+    EXPECT_LT(a.engine().state().q[simulation::kKneeLeft], 0);
+    EXPECT_NEAR(without - with, 4 * 0.01 * knee_rad, 1e-15);
+  }
+}
+
 TEST_P(Runner, WhereLegsMoveTogetherTheLeftOneIsGivenTheRightOnesExcitations) {
   environment::RunnerOptions of_jump = options();
   of_jump.task = task::task_of("jump", "movement");
@@ -247,6 +271,9 @@ TEST(RunnerOptionsAre, CheckedByName) {
   options.foot = "heel";
   EXPECT_ERROR(environment::RunnerEnvironment(model, options),
                "foot \"heel\": must be ankle or toe");
+  options = {};
+  options.backward_knees = -1;
+  EXPECT_ERROR(environment::RunnerEnvironment(model, options), "backward_knees = -1: must be >= 0");
   options = {};
   options.reference.emplace();
   options.reference->source = "run.mp4";

@@ -9,7 +9,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_
 export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 ranks() { n=$1; shift; "$mpirun" -n "$n" "$stride" "$@"; }
 
-settings="--preset demo --baseline --seed 3 --set run.threads=1 run.warm_up=300 run.evaluate_every=500
+settings="--preset ddpg --baseline --seed 3 --set run.threads=1 run.warm_up=300 run.evaluate_every=500
           run.environments=6 exploration.parameter_share=0.5 agent.actor_hidden=[16] agent.critic_hidden=[16]"
 for n in 1 2 4; do
   # shellcheck disable=SC2086
@@ -48,7 +48,7 @@ for file in curve.csv agent.safetensors; do cmp by1/$file killed/$file; done
 # The runs of an experiment, shared by ranks, and as jobs of an array with a merge.
 cat > two.toml << 'EOF'
 title = "Two arms"
-preset = "demo"
+preset = "ddpg"
 decisions = 600
 seeds = 2
 

@@ -68,13 +68,14 @@ TEST(Options, ValuesOutOfRangeAreNamedWithTheRange) {
 }
 
 TEST(Options, PresetsAreValidAndAnUnknownOneIsNamed) {
-  for (const char* preset : {"paper", "shaping", "stride", "demo"}) {
+  for (const char* preset : {"competition", "ddpg", "demo", "paper", "ppo", "shaping", "stride"}) {
     training::TrainOptions options;
     training::read_toml(training::preset_file(preset), options);
     options.check();
   }
-  EXPECT_ERROR(training::preset_file("fast"),
-               "preset 'fast': must be one of competition, demo, paper, ppo, shaping, stride");
+  EXPECT_ERROR(
+      training::preset_file("fast"),
+      "preset 'fast': must be one of competition, ddpg, demo, paper, ppo, shaping, stride");
 }
 
 namespace fs = std::filesystem;
