@@ -5,10 +5,12 @@
 
 Names: each command does its work, writes what it should under that name and nothing else, and runs
 nothing. Files of another kind: exit 1 or 2, one sentence that begins with "error:", names the file
-and is no parser's talk; nothing is written. Codecs (needs ffmpeg): as many frames as were coded.
+and is no parser's talk; nothing is written. Codecs, turned
+pictures, odd sizes, uneven times (needs ffmpeg): as many frames as were coded, the left knee in its
+place, and what is odd is told.
 --quick takes one name of every odd sign, a fifth of the wrong files, and no codecs.
 """
-import argparse, hashlib, itertools, json, os, pathlib, shutil, subprocess, sys, tempfile, zipfile
+import argparse, hashlib, json, math, os, pathlib, shutil, subprocess, sys, tempfile, zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 NAMES = ["a b  c", "-o", "über 走る 🏃", "it's \"quoted\"", "`touch RAN`", "$(touch RAN)", "%d %s%n", "a;touch RAN;b",
@@ -21,7 +23,22 @@ CODECS = {"hevc.mp4": ["-c:v", "libx265", "-x265-params", "log-level=none"], "vp
           "ffv1.mkv": ["-c:v", "ffv1"], "theora.ogv": ["-c:v", "libtheora", "-q:v", "7"], "wmv2.wmv": ["-c:v", "wmv2", "-q:v", "4"],
           "huffyuv.avi": ["-c:v", "huffyuv"], "rawvideo.avi": ["-c:v", "rawvideo"], "mjpeg.mov": ["-c:v", "mjpeg", "-q:v", "3"],
           "h264_422.mov": ["-c:v", "libx264", "-pix_fmt", "yuv422p10le"], "mpeg1.mpg": ["-c:v", "mpeg1video", "-q:v", "4", "-r", "24"],
-          "png.mov": ["-c:v", "png"], "flashsv.flv": ["-c:v", "flashsv"]}
+          "png.mov": ["-c:v", "png"], "flashsv.flv": ["-c:v", "flashsv"],
+          "av1.webm": ["-c:v", "libaom-av1", "-cpu-used", "8", "-crf", "30"], "vp8.webm": ["-c:v", "libvpx", "-b:v", "1M", "-deadline", "realtime"],
+          "prores.mov": ["-c:v", "prores_ks", "-profile:v", "1"], "xvid.avi": ["-c:v", "mpeg4", "-vtag", "XVID", "-q:v", "3"],
+          "mjpeg.avi": ["-c:v", "mjpeg", "-q:v", "3"], "msmpeg4.avi": ["-c:v", "msmpeg4", "-q:v", "3"], "utvideo.avi": ["-c:v", "utvideo"],
+          "dnxhr.mov": ["-c:v", "dnxhd", "-profile:v", "dnxhr_lb", "-pix_fmt", "yuv422p"], "jpeg2000.mov": ["-c:v", "jpeg2000"],
+          "qtrle.mov": ["-c:v", "qtrle"], "mpeg2.ts": ["-c:v", "mpeg2video", "-q:v", "4"], "h263.mkv": ["-c:v", "flv1", "-q:v", "3"],
+          "anim.gif": [], "anim.apng": ["-plays", "1"],
+          "grey.mp4": ["-c:v", "libx264", "-pix_fmt", "gray"], "alpha.mov": ["-c:v", "prores_ks", "-profile:v", "4444", "-pix_fmt", "yuva444p10le"],
+          # What phones, editors and screen recorders do: turned, odd sizes, uneven times, pixels that are not square, sound, a start that is not 0.
+          **{f"turned{angle}.{kind}": ["-vf", how, "-c:v", "libx264"] for kind in ("mp4", "mov")
+             for angle, how in ((90, "transpose=2"), (180, "hflip,vflip"), (270, "transpose=1"))},
+          "odd.mkv": ["-vf", "pad=323:181", "-c:v", "ffv1"], "uneven.mkv": ["-vf", "setpts='PTS+0.3*mod(N,3)/24/TB'", "-vsync", "0", "-c:v", "libx264"],
+          "late.mp4": ["-c:v", "libx264", "-output_ts_offset", "3.7"],
+          "wide.mp4": ["-vf", "scale=240:180,setsar=4/3", "-c:v", "libx264", "-crf", "12"],
+          "sound.mp4": ["-f", "lavfi", "-i", "sine=duration=6", "-c:v", "libx264", "-c:a", "aac"],
+          "interlaced.ts": ["-vf", "setfield=tff", "-c:v", "mpeg2video", "-flags", "+ildct+ilme", "-q:v", "3"]}
 faults, runs = [], 0
 
 
@@ -57,10 +74,11 @@ def sha(path):
     return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
 
 
-def clicked(video, source="small"):
+def clicked(video, source="small", width=320, height=180):
     """The clip's clicks beside a video, however it is coded."""
     clicks = json.loads((SOURCE / "videos" / f"{source}.keypoints.json").read_text())
     clicks["video"], clicks["video_sha256"] = video.name, sha(video)
+    clicks["width_px"], clicks["height_px"] = width, height
     file = video.with_suffix(".keypoints.json") if video.suffix else pathlib.Path(str(video) + ".keypoints.json")
     file.write_text(json.dumps(clicks))
 
@@ -206,32 +224,56 @@ def files(folder, human):
         fault(["files"], "a file was run")
 
 
+def points(table):
+    """The left knee of every row."""
+    lines = [line.split(",") for line in table.read_text().split("\n") if line and not line.startswith("#")]
+    x = lines[0].index("knee_l_x")
+    return [tuple(map(float, row[x:x + 2])) for row in lines[1:]]
+
+
 def codecs(folder):
     home = folder / "codecs"
     home.mkdir()
     (home / "events.jsonl").write_text('{"key": "a"}\n')
     for name, how in CODECS.items():
+        if options.codec and options.codec not in name:
+            continue
         video = home / name
-        made = subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", SOURCE / "videos/small.mp4", *how, video], capture_output=True)
+        stored = home / f"stored{video.suffix}" if name.startswith("turned") else video
+        made = subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", SOURCE / "videos/small.mp4", *how, stored], capture_output=True)
         if made.returncode != 0:
             print(f"{name}: not coded here: {made.stderr.decode()[-200:].strip()}")
             continue
-        clicked(video)
+        if stored != video:
+            subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", stored, "-c", "copy", "-metadata:s:v", f"rotate={video.stem[6:]}", video], check=True)
+            stored.unlink()
+        clicked(video, width=323 if name == "odd.mkv" else 320, height=181 if name == "odd.mkv" else 180)
         stem = video.stem
         works(home, [f"{stem}.trajectory.csv"], "track", name)
-        rows = [line for line in (home / f"{stem}.trajectory.csv").read_text().split("\n") if line and line[0].isdigit()]
-        if len(rows) != 96:
-            fault(["track", name], f"{len(rows)} frames, not 96")
+        knee = points(home / f"{stem}.trajectory.csv")
+        if len(knee) != 96:
+            fault(["track", name], f"{len(knee)} frames, not 96")
+        off = max(math.dist(a, b) for a, b in zip(knee, points(SOURCE / "videos/small.truth.csv")))
+        if not off < 6:
+            fault(["track", name], f"the left knee is as much as {off:.1f} px off")
         works(home, [], "annotate", name, "--script", "events.jsonl")
         status, said = stride(home, "info", name)
         if status != 0 or "96 frames" not in said:
             fault(["info", name], f"exit {status}, not 96 frames", said)
+        for part, told in (("turned", "turn"), ("uneven", "the rate varies"), ("wide", "not square")):
+            if (part in name) != (told in said.replace(name, "")):
+                fault(["info", name], f"'{told}'", said)
         works(home, [f"{stem}.calibrated.csv", f"{stem}.report.txt", f"{stem}.report.svg", f"{stem}.fitted.mp4"], "calibrate",
               f"{stem}.trajectory.csv", "--overlay", f"{stem}.fitted.mp4")
         works(home, [f"out/{stem}{e}" for e in (".trajectory.csv", ".calibrated.csv", ".report.txt", ".report.svg", ".potential.json",
                                                 ".converted.json")], "convert", name, "-o", "out")
         works(home, [f"{stem}.html"], "report", f"{stem}.trajectory.csv", "-o", f"{stem}.html")
+        works(home, [f"{stem}.exported.csv", f"{stem}.seen.mp4"], "track", name, "--import", f"{stem}.trajectory.csv", "--export",
+              f"{stem}.exported.csv", "--overlay", f"{stem}.seen.mp4")
+        works(home, [f"{stem}.again.csv"], "track", name, "--prior", f"{stem}.trajectory.csv", "-o", f"{stem}.again.csv")
         shutil.rmtree(home / "out")
+        for old in home.glob(f"{stem}.*"):
+            old.unlink()
 
 
 def main():
@@ -257,6 +299,6 @@ def main():
 parser = argparse.ArgumentParser()
 parser.add_argument("stride", type=os.path.abspath)
 parser.add_argument("--quick", action="store_true"), parser.add_argument("--verbose", action="store_true")
-parser.add_argument("--only", choices=["names", "files", "codecs"])
+parser.add_argument("--only", choices=["names", "files", "codecs"]), parser.add_argument("--codec", help="only those whose names hold this")
 options = parser.parse_args()
 main()
