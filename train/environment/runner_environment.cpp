@@ -73,6 +73,10 @@ RunnerEnvironment::RunnerEnvironment(const osim::Model& model, const RunnerOptio
       for (double value : sample.coordinates)
         require(std::isfinite(value), "reference {}: at {} s a coordinate is not a number",
                 options.reference->source, sample.time_s);
+  require(options.imitation.reward_per_s == 0 || options.reference,
+          "imitation.reward_per_s = {}: needs the clip's run, NAME.calibrated.csv",
+          options.imitation.reward_per_s);
+  if (options.imitation.reward_per_s > 0) imitation_.emplace(*options.reference, options.imitation);
   foot_r_ = model.body(options.foot == "toe" ? "toes_r" : "talus_r");
   foot_l_ = model.body(options.foot == "toe" ? "toes_l" : "talus_l");
   spec_.observation_names = competition::Sensors::names();
@@ -176,8 +180,14 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
   const task::Outcome outcome = task_->step({engine_->state(), kinematics_, reward_});
   step_.reward = outcome.reward - options_.backward_knees * competition::kStep_s *
                                       backward_knees_rad(engine_->state());
+  bool strayed = false;
+  if (imitation_) {
+    const double phase = imitation_->phase_at(initial_phase_, time_s());
+    step_.reward += imitation_->reward(engine_->state(), phase, competition::kStep_s);
+    strayed = imitation_->ends(engine_->state(), phase);
+  }
   step_.failed = !report_.ok;
-  step_.terminated = step_.failed || outcome.end == task::End::fall;
+  step_.terminated = step_.failed || strayed || outcome.end == task::End::fall;
   step_.truncated =
       !step_.terminated && (outcome.end == task::End::done || steps_ >= spec_.max_steps);
   if (step_.terminated || step_.truncated) {

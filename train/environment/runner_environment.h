@@ -7,6 +7,7 @@
 
 #include "calibrate/runner/calibrated.h"
 #include "train/environment/environment.h"
+#include "train/environment/imitation.h"
 #include "train/environment/late_positions.h"
 #include "train/environment/robust_features.h"
 #include "train/simulation/competition/rules.h"
@@ -30,6 +31,7 @@ struct RunnerOptions {
   /// is raised where a foot would be deeper in the floor than in standing.
   std::optional<CalibratedTrajectory> reference;
   double reference_share = 1;
+  ImitationOptions imitation;  // of the reference
   /// Of the episodes have no obstacles, and at most three, whatever the difficulty says.
   double flat_share = 0, few_share = 0;
   /// Under nips2017: observed positions of bodies are late now and then (O6), see LatePositions.
@@ -84,6 +86,7 @@ class RunnerEnvironment final : public Environment {
   EnvironmentSpec spec_;
   std::unique_ptr<simulation::Engine> engine_;
   std::unique_ptr<task::Task> task_;
+  std::optional<Imitation> imitation_;
   competition::Sensors sensors_;
   LatePositions late_positions_;
   RobustFeatures robust_features_;

@@ -16,6 +16,7 @@ struct TaskOptions {
   std::string name = "distance";  // a row of kTasks in task.cpp
   double speed_m_s = 0;           // that "speed" wants
   double effort = 0;              // what mean squared activation costs, m/s
+  double slip = 0;                // what a metre that a foot slides costs "walk", m
 };
 
 /// What a task sees of the runner: at the start of an episode and after each step of 0.01 s.

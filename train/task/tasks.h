@@ -19,7 +19,8 @@ std::unique_ptr<Task> distance(const TaskOptions& options, const osim::Model& mo
 std::unique_ptr<Task> speed(const TaskOptions& options, const osim::Model& model);
 
 /// Walking: the same speed with a foot on the ground. A step with both in the air counts −Δt v* in
-/// reward and measure.
+/// reward and measure. The reward loses `slip` for each metre that a foot slides while it bears
+/// weight: the slower of heel and toe, less where it bears under bearing_N().
 std::unique_ptr<Task> walk(const TaskOptions& options, const osim::Model& model);
 
 /// A jump from standing: both feet leave the ground within half a metre of the start, and after

@@ -89,13 +89,17 @@ Demonstration load_demonstration(const fs::path& potential, const fs::path& refe
     require_movement(demonstration.potential->movement, options.task.movement, potential.string());
     require_model(*demonstration.potential, potential.string(), options.model);
   }
-  if (options.reference_share == 0 || (potential.empty() && reference.empty()))
+  const bool imitates = options.imitation.reward_per_s > 0;
+  require(!imitates || !potential.empty() || !reference.empty(),
+          "imitation.reward_per_s: needs the clip's run: --potential, or --reference");
+  if ((options.reference_share == 0 && !imitates) || (potential.empty() && reference.empty()))
     return demonstration;
   const fs::path file = reference.empty() ? calibrated_beside(potential) : reference;
   require(fs::exists(file),
           "{}: no such file; episodes start on the run of the video (environment.reference_share = "
-          "{}): name it with --reference, or say --set environment.reference_share=0",
-          file.string(), options.reference_share);
+          "{}): name it with --reference, or say --set environment.reference_share=0{}",
+          file.string(), options.reference_share,
+          imitates ? " --set imitation.reward_per_s=0" : "");
   demonstration.reference = load_calibrated(file);
   require_movement(demonstration.reference->movement, options.task.movement, file.string());
   return demonstration;

@@ -114,12 +114,22 @@ std::vector<Field> fields(TrainOptions& o) {
       {"environment.reference_by_slot", "in that share of the environments every episode does",
        &o.environment.reference_by_slot},
 
+      {"imitation.reward_per_s",
+       "for moving as the calibrated run does, of each simulated second in training; no potential",
+       &o.environment.imitation.reward_per_s, 0, 1000},
+      {"imitation.angle_deg", "root mean square difference of the angles that leaves 1/e of it",
+       &o.environment.imitation.angle_deg, 1, 180},
+      {"imitation.end_deg", "that ends an episode of training; 0: never",
+       &o.environment.imitation.end_deg, 0, 180},
+
       {"task.movement", "whose task it is", &o.environment.task.movement},
       {"task.name", "reward, end and measure of an episode", &o.environment.task.name, -kInf, kInf,
        task::task_names()},
       {"task.speed_m_s", "that the task speed wants", &o.environment.task.speed_m_s, 0, 12},
       {"task.effort", "what mean squared activation costs in the task speed, m/s",
        &o.environment.task.effort, 0, 100},
+      {"task.slip", "what a metre that a foot slides on the ground costs in the task walk, m",
+       &o.environment.task.slip, 0, 100},
 
       {"observation.robust",
        "instead of the 41 what can be trusted under the competition's rules: feet by joint angles, "

@@ -9,6 +9,7 @@
 #include "extract/io/toml.h"
 #include "train/ddpg/agent.h"
 #include "train/ddpg/explorer.h"
+#include "train/environment/imitation.h"
 #include "train/environment/observation.h"
 #include "train/task/task.h"
 
@@ -47,7 +48,8 @@ struct EnvironmentOptions {
   std::string reference;                 // calibrated run, as it was copied into the run folder
   double reference_share = 0.7;          // of training episodes start on it
   bool reference_by_slot = false;        // in that share of the environments all episodes do
-  task::TaskOptions task = {};           // what the agent is to do
+  environment::ImitationOptions imitation = {};  // of the calibrated run, in training episodes
+  task::TaskOptions task = {};                   // what the agent is to do
 };
 
 struct RewardOptions {

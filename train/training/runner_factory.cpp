@@ -35,6 +35,7 @@ EnvironmentFactory make_runners(const EnvironmentOptions& options,
     }
     if (slot >= 0 && reference) {
       own.reference = reference;
+      own.imitation = options.imitation;
       own.reference_share = options.reference_share;
       if (options.reference_by_slot)  // of any consecutive ones the same share
         own.reference_share = std::floor((slot + 1) * options.reference_share) >

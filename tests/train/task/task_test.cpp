@@ -13,10 +13,10 @@ namespace {
 /// A runner whose body is moved by hand: pelvis, ankles and what the feet bear.
 class Puppet {
  public:
-  explicit Puppet(const std::string& task, double speed_m_s = 0)
+  explicit Puppet(const std::string& task, double speed_m_s = 0, double slip = 0)
       : model_(osim::load_osim(osim::default_model_file())),
-        task_(
-            make_task({.movement = "", .name = task, .speed_m_s = speed_m_s, .effort = 0}, model_)),
+        task_(make_task({.movement = "", .name = task, .speed_m_s = speed_m_s, .slip = slip},
+                        model_)),
         state_(simulation::default_state(model_)) {
     kinematics_.bodies.resize(model_.bodies.size());
     for (const osim::Body& body : model_.bodies) weight_N_ += 9.80665 * body.mass_kg;
@@ -32,6 +32,11 @@ class Puppet {
   void put_ankles(double right_m, double left_m) {
     kinematics_.bodies[static_cast<std::size_t>(model_.body("talus_r"))].position.x = right_m;
     kinematics_.bodies[static_cast<std::size_t>(model_.body("talus_l"))].position.x = left_m;
+  }
+  void move_foot(const std::string& side, double heel_m_s, double toe_m_s) {
+    kinematics_.bodies[static_cast<std::size_t>(model_.body("calcn_" + side))].velocity.x =
+        heel_m_s;
+    kinematics_.bodies[static_cast<std::size_t>(model_.body("toes_" + side))].velocity.x = toe_m_s;
   }
   /// So many steps, in each of which the pelvis moves by `dx_m`.
   End advance(int steps, double dx_m = 0) {
@@ -90,6 +95,24 @@ TEST(Task, OfWalkingHasAFootOnTheGround) {
   runner.stand(false, false);
   runner.advance(50, 0.013);
   EXPECT_NEAR(runner.task_->measure_m(), 0, 1e-9);
+}
+
+TEST(Task, OfWalkingChargesFeetThatSlideButNotThoseThatRollOrSwing) {
+  const auto cost_of = [](double heel_m_s, double toe_m_s, double weight_share) {
+    Puppet puppet("walk", 1.3, 2);
+    puppet.stand(true, true);
+    puppet.kinematics_.ground_reaction_N[1].y = weight_share * puppet.weight_N_;
+    puppet.move_foot("l", heel_m_s, toe_m_s);
+    puppet.advance(100, 0.013);
+    EXPECT_NEAR(puppet.task_->measure_m(), 1.3, 1e-9);
+    return 1.3 - puppet.reward_;
+  };
+  EXPECT_NEAR(cost_of(1.5, 1.2, 0.5), 2 * 1.2, 1e-9) << "it slides";
+  EXPECT_NEAR(cost_of(-0.5, -0.4, 0.5), 2 * 0.4, 1e-9) << "backwards";
+  EXPECT_NEAR(cost_of(1.5, 1.2, 0.01), 2 * 1.2 * 0.2, 1e-5) << "it brushes the ground";
+  EXPECT_NEAR(cost_of(1.5, 0, 0.5), 0, 1e-9) << "it rolls over the toe";
+  EXPECT_NEAR(cost_of(0, 0.3, 0.5), 0, 1e-9) << "over the heel";
+  EXPECT_NEAR(cost_of(1.5, 1.2, 0), 0, 1e-9) << "it swings";
 }
 
 TEST(Task, OfALongJumpMeasuresFromTheForemostToTheRearmostAnkle) {

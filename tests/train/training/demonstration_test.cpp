@@ -71,6 +71,17 @@ TEST_F(DemonstrationTest, AMissingRunIsAnErrorWithTheCureUnlessNoEpisodeStartsOn
   EXPECT_FALSE(training::load_demonstration({}, {}, starts_on_reference).reference);  // a baseline
 }
 
+TEST_F(DemonstrationTest, WhatIsImitatedIsNeededEvenWhereNoEpisodeStartsOnIt) {
+  training::EnvironmentOptions imitates;
+  imitates.reference_share = 0;
+  imitates.imitation.reward_per_s = 1;
+  EXPECT_ERROR(training::load_demonstration(potential, {}, imitates),
+               "--set imitation.reward_per_s=0");
+  EXPECT_ERROR(training::load_demonstration({}, {}, imitates), "imitation.reward_per_s: needs");
+  save(some_run(), folder / "clip.calibrated.csv");
+  EXPECT_TRUE(training::load_demonstration(potential, {}, imitates).reference);
+}
+
 TEST_F(DemonstrationTest, WhatIsNoRunOnThisModelIsRefused) {
   const auto expect_refused = [&](auto change, const char* why) {
     Potential spoilt = clip_potential();
