@@ -50,14 +50,15 @@ class SameBytes : public ::testing::Test {
 };
 
 TEST_F(SameBytes, OfDdpg) {
-  const std::string curve = curve_hash("stride", {"run.decisions=2000", "run.evaluate_every=500",
-                                                  "run.warm_up=300", "run.threads=2"});
+  const std::string curve = curve_hash(
+      "ddpg", {"run.decisions=2000", "run.evaluate_every=500", "run.warm_up=300", "run.threads=2"});
   EXPECT_HASH(curve, "68d292cb1bff4b79f7c3c5daf7e586fcd7d794b6363f63b6fe7914e5a03b690c");
 }
 
 TEST_F(SameBytes, OfPpo) {
-  const std::string curve = curve_hash("ppo", {"run.decisions=12000", "run.evaluate_every=4000",
-                                               "run.threads=2", "shaping.scale=0.004"});
+  const std::string curve =
+      curve_hash("ppo", {"run.decisions=12000", "run.evaluate_every=4000", "run.threads=2",
+                         "shaping.scale=0.004", "reward.backward_knees=0"});
   EXPECT_HASH(curve, "d5f22f22f35f50f1ff4fbf8879a89d66adfc3c7185a65b0e9cc53f9f7794d910");
 }
 
