@@ -271,7 +271,7 @@ def codecs(folder):
         works(home, [f"{stem}.exported.csv", f"{stem}.seen.mp4"], "track", name, "--import", f"{stem}.trajectory.csv", "--export",
               f"{stem}.exported.csv", "--overlay", f"{stem}.seen.mp4")
         works(home, [f"{stem}.again.csv"], "track", name, "--prior", f"{stem}.trajectory.csv", "-o", f"{stem}.again.csv")
-        shutil.rmtree(home / "out")
+        shutil.rmtree(home / "out", ignore_errors=True)
         for old in home.glob(f"{stem}.*"):
             old.unlink()
 
