@@ -9,6 +9,26 @@ namespace {
 
 constexpr int kPhases = 24;
 
+/// Whether the points told the fit where a part is.
+bool is_known(const fit::StrideFit& fit, BodyPart part) {
+  switch (part) {
+    case BodyPart::pelvis:
+    case BodyPart::hip_r:
+    case BodyPart::hip_l:
+    case BodyPart::knee_r:
+    case BodyPart::knee_l:
+    case BodyPart::ankle_r:
+    case BodyPart::ankle_l:
+      return true;
+    case BodyPart::toe_r:
+    case BodyPart::toe_l:
+      return fit.toes_seen;
+    case BodyPart::head:
+      return fit.head_seen;
+  }
+  return false;
+}
+
 /// The confidence of a fitted part whose deviation from the pelvis is known.
 double confidence(double sd_px, double leg_px) {
   const double relative = 30 * sd_px / leg_px;
@@ -93,13 +113,12 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
   }
   for (std::size_t i = 0; i < fitted.frames.size(); ++i)
     for (const BodyPart part : kBodyParts) {
-      const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
-      const bool known = toe ? c.fit.toes_seen : part != BodyPart::head || c.fit.head_seen;
       const Eigen::Vector2d z =
           fit::predicted_px(c.fit, directions, part, static_cast<int>(i), c.observations.u_s[i]);
       fitted.frames[i][part] =
-          known ? Point{fit::image_px(trajectory, c.observations.to_left, z), Source::predicted, 1}
-                : Point{};
+          is_known(c.fit, part)
+              ? Point{fit::image_px(trajectory, c.observations.to_left, z), Source::predicted, 1}
+              : Point{};
     }
   return fitted;
 }

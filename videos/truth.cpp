@@ -109,10 +109,9 @@ Keypoints clicks(const Clip& clip) {
     const TrajectoryFrame& frame = truth.frames[static_cast<std::size_t>(std::lround(at))];
     ClickedFrame& clicked = keypoints.frames[frame.frame];
     clicked.time_s = frame.time_s;
-    for (const BodyPart part :
-         {BodyPart::pelvis, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r, BodyPart::knee_l,
-          BodyPart::ankle_l, BodyPart::toe_l, BodyPart::head}) {
-      if (part == BodyPart::head && !clip.jump) continue;
+    for (const BodyPart part : kBodyParts) {
+      const Prompt prompt = row(part).prompt;
+      if (prompt != Prompt::always && !(clip.jump && prompt == Prompt::with_head)) continue;
       const Eigen::Vector2d off(clip.click_sd_px * normal(random),
                                 clip.click_sd_px * normal(random));
       Click click;

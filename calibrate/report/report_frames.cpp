@@ -6,6 +6,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "calibrate/fitted.h"
 #include "extract/io/error.h"
@@ -52,16 +53,12 @@ class Tile {
 
 void draw_runner(const TrajectoryFrame& fitted, const TrajectoryFrame& labelled, bool to_left,
                  Tile& tile) {
-  const auto leg = [&](const std::array<BodyPart, 4>& parts, const cv::Scalar& colour) {
-    for (int j = 0; j < (fitted[parts[3]].present() ? 3 : 2); ++j)
-      tile.bone(fitted[parts[j]].p_px, fitted[parts[j + 1]].p_px, colour);
+  const auto leg = [&](std::span<const Bone> bones, const cv::Scalar& colour) {
+    for (const auto& [from, to] : bones)
+      if (fitted[to].present()) tile.bone(fitted[from].p_px, fitted[to].p_px, colour);
   };
-  const auto right = [&] {
-    leg({BodyPart::hip_r, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r}, kRight);
-  };
-  const auto left = [&] {
-    leg({BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l}, kLeft);
-  };
+  const auto right = [&] { leg(kLegBones<Side::right>, kRight); };
+  const auto left = [&] { leg(kLegBones<Side::left>, kLeft); };
   // The right leg of a runner who faces right is in front.
   if (to_left)
     right(), left();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "calibrate/gait/human_running.h"
 #include "calibrate/report/report.h"
@@ -80,17 +81,24 @@ std::string poses(const Calibration& c) {
       return std::abs(d - std::round(d));
     });
     const Eigen::Vector2d at(1.15 * k, nearest->coordinates[2]);
-    const auto chain = [&](Block& block, std::initializer_list<BodyPart> parts) {
-      for (const BodyPart part : parts) {
-        const Eigen::Vector2d p = at + (*nearest)[part];
-        const Eigen::Vector2d sd = nearest->sd_m[index(part)];
-        block.row(p.x(), p.y(), 2 * sd.x(), 2 * sd.y());
+    const auto joint = [&](Block& block, BodyPart part) {
+      const Eigen::Vector2d p = at + (*nearest)[part];
+      const Eigen::Vector2d sd = nearest->sd_m[index(part)];
+      block.row(p.x(), p.y(), 2 * sd.x(), 2 * sd.y());
+    };
+    const auto chain = [&](Block& block, std::span<const Bone> bones) {
+      BodyPart end = bones.front().from;
+      joint(block, end);
+      for (const auto& [from, to] : bones) {
+        if (!(*nearest)[to].allFinite()) continue;
+        if (from != end) block.gap(), joint(block, from);
+        joint(block, end = to);
       }
       block.gap();
     };
-    chain(right, {BodyPart::hip_r, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r});
-    chain(left, {BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l});
-    chain(trunk, {BodyPart::hip_r, BodyPart::head});
+    chain(right, kLegBones<Side::right>);
+    chain(left, kLegBones<Side::left>);
+    chain(trunk, std::array{Bone{BodyPart::hip_r, BodyPart::head}});
   }
   return right.end() + left.end() + trunk.end();
 }

@@ -19,9 +19,10 @@ inline constexpr int kWidth_px = 1100, kHeight_px = 1180;
 // The strip of frames in the picture.
 inline constexpr int kStripLeft_px = 20, kStripTop_px = 42, kStrip_px = 1060, kStripHeight_px = 196;
 
-inline constexpr std::array<BodyPart, 6> kTraced{BodyPart::knee_r,  BodyPart::ankle_r,
-                                                 BodyPart::toe_r,   BodyPart::knee_l,
-                                                 BodyPart::ankle_l, BodyPart::toe_l};
+/// The parts whose paths are drawn: knees, ankles and toes.
+inline constexpr auto kTraced = parts_where<[](const BodyPartRow& each) {
+  return each.side && each.prompt == Prompt::always;
+}>();
 
 /// A block of data of a gnuplot script.
 class Block {

@@ -102,14 +102,32 @@ void place_parts(const SagittalModel& model, CalibratedSample& sample) {
   const auto& q = sample.coordinates;
   const auto right = place_leg(model, q[0], q[3], q[4], q[5]);
   const auto left = place_leg(model, q[0], q[6], q[7], q[8]);
-  for (const BodyPartRow& part : kBodyPartRows) {
-    if (!part.side) continue;
-    const auto& leg = *part.side == Side::right ? right : left;
-    sample.p_m[index(part.part)] =
-        std::array{leg.hip, leg.knee, leg.ankle, leg.toe}[joints_below_hip(part.part)];
-  }
-  sample.p_m[index(BodyPart::pelvis)].setZero();
-  sample.p_m[index(BodyPart::head)] = turned(q[0], model.p_pelvis_head_m);
+  const auto place = [&](BodyPart part) -> Eigen::Vector2d {
+    switch (part) {
+      case BodyPart::pelvis:
+        return Eigen::Vector2d::Zero();
+      case BodyPart::knee_r:
+        return right.knee;
+      case BodyPart::ankle_r:
+        return right.ankle;
+      case BodyPart::toe_r:
+        return right.toe;
+      case BodyPart::hip_r:
+        return right.hip;
+      case BodyPart::knee_l:
+        return left.knee;
+      case BodyPart::ankle_l:
+        return left.ankle;
+      case BodyPart::toe_l:
+        return left.toe;
+      case BodyPart::hip_l:
+        return left.hip;
+      case BodyPart::head:
+        break;
+    }
+    return turned(q[0], model.p_pelvis_head_m);
+  };
+  for (const BodyPart part : kBodyParts) sample.p_m[index(part)] = place(part);
 }
 
 double lowest_point(const SagittalModel& model, const Leg<double>& leg) {

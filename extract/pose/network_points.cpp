@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 
 #include "extract/io/error.h"
 #include "extract/io/statistics.h"
@@ -26,22 +27,39 @@ constexpr double kLegsCut = 0.2;
 
 /// Which landmarks a part is the mean of, and the standard deviation of its error, of each
 /// coordinate in leg lengths, where its heat map reaches 0.9: measured on our clips, the difference
-/// between the network's idea of a joint and ours included. The hips are the pelvis' own landmarks:
-/// as points beside it they would count twice, and the network's two hips are no hip joints.
-struct PartOfLandmarks {
-  BodyPart part;
-  std::array<std::size_t, 2> landmarks;
+/// between the network's idea of a joint and ours included.
+struct Landmarks {
+  std::array<std::size_t, 2> of;
   double sd_legs;
 };
-constexpr double kKnee = 0.016, kAnkle = 0.025, kToe = 0.034, kHead = 0.03;
-constexpr std::array kParts{PartOfLandmarks{BodyPart::pelvis, {23, 24}, kKnee},
-                            PartOfLandmarks{BodyPart::knee_l, {25, 25}, kKnee},
-                            PartOfLandmarks{BodyPart::knee_r, {26, 26}, kKnee},
-                            PartOfLandmarks{BodyPart::ankle_l, {27, 27}, kAnkle},
-                            PartOfLandmarks{BodyPart::ankle_r, {28, 28}, kAnkle},
-                            PartOfLandmarks{BodyPart::toe_l, {31, 31}, kToe},
-                            PartOfLandmarks{BodyPart::toe_r, {32, 32}, kToe},
-                            PartOfLandmarks{BodyPart::head, {7, 8}, kHead}};
+constexpr double kKnee = 0.016;
+std::optional<Landmarks> landmarks_of(BodyPart part) {
+  constexpr double kAnkle = 0.025, kToe = 0.034, kHead = 0.03;
+  switch (part) {
+    case BodyPart::pelvis:
+      return Landmarks{{23, 24}, kKnee};
+    case BodyPart::knee_r:
+      return Landmarks{{26, 26}, kKnee};
+    case BodyPart::knee_l:
+      return Landmarks{{25, 25}, kKnee};
+    case BodyPart::ankle_r:
+      return Landmarks{{28, 28}, kAnkle};
+    case BodyPart::ankle_l:
+      return Landmarks{{27, 27}, kAnkle};
+    case BodyPart::toe_r:
+      return Landmarks{{32, 32}, kToe};
+    case BodyPart::toe_l:
+      return Landmarks{{31, 31}, kToe};
+    case BodyPart::head:
+      return Landmarks{{7, 8}, kHead};
+    // The pelvis' own landmarks: as points beside it they would count twice, and the network's two
+    // hips are no hip joints.
+    case BodyPart::hip_r:
+    case BodyPart::hip_l:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 /// The tracker takes the noise of a point as inverse to its confidence: that of a knee seen well
 /// over this one's. The logarithm of the noise grows as the heat map sinks, likewise measured.
@@ -155,15 +173,16 @@ imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
   result.frame = frame;
   const double hips_px = (body.landmarks[23].p_px.x() + body.landmarks[24].p_px.x()) / 2;
   const bool legs_cut = std::min(hips_px, image.width - 1 - hips_px) < kLegsCut * body.next.size_px;
-  for (const auto& [part, landmarks, sd_legs] : kParts) {
-    if (legs_cut && row(part).side) continue;
-    const Landmark &a = body.landmarks[landmarks[0]], &b = body.landmarks[landmarks[1]];
+  for (const BodyPart part : kBodyParts) {
+    const std::optional<Landmarks> landmarks = landmarks_of(part);
+    if (!landmarks || (legs_cut && row(part).side)) continue;
+    const Landmark &a = body.landmarks[landmarks->of[0]], &b = body.landmarks[landmarks->of[1]];
     const Vector2d p_px = (a.p_px + b.p_px) / 2;
     const bool inside = p_px.x() >= -0.5 && p_px.y() >= -0.5 && p_px.x() <= image.width - 0.5 &&
                         p_px.y() <= image.height - 0.5;
     if (!inside) continue;
     const double peak = std::min(a.peak, b.peak);
-    result[part] = {p_px, Source::detected, confidence_of(sd_legs, peak)};
+    result[part] = {p_px, Source::detected, confidence_of(landmarks->sd_legs, peak)};
   }
   return result;
 }

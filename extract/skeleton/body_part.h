@@ -98,9 +98,25 @@ inline constexpr int kBodyPartCount = static_cast<int>(kBodyParts.size());
 inline constexpr auto kRequiredParts =
     parts_where<[](const BodyPartRow& each) { return each.required; }>();
 
-/// The parts of the right leg, each of which has its like on the left.
-inline constexpr auto kRightParts =
-    parts_where<[](const BodyPartRow& each) { return each.side == Side::right; }>();
+/// A part of the right leg and its like on the left.
+struct LegPair {
+  BodyPart right{}, left{};
+  constexpr BodyPart operator[](int side) const { return side == 0 ? right : left; }
+};
+inline constexpr auto kLegPairs = [] {
+  constexpr auto kRight =
+      parts_where<[](const BodyPartRow& each) { return each.side == Side::right; }>();
+  std::array<LegPair, kRight.size()> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {kRight[i], mirrored(kRight[i])};
+  return pairs;
+}();
+
+/// Whether a part is another one or hangs from it by bones.
+constexpr bool hangs_from(BodyPart part, BodyPart above) {
+  for (; part != above; part = row(part).parent)
+    if (row(part).parent == part) return false;
+  return true;
+}
 
 /// A limb, or the line from the pelvis to a knee.
 struct Bone {
@@ -114,6 +130,23 @@ inline constexpr auto kBones = [] {
   return bones;
 }();
 
+/// The bones of a leg, from the hip downwards: the first begins at the hip instead of the pelvis.
+template <Side kSide>
+inline constexpr auto kLegBones = [] {
+  constexpr auto kEnds = parts_where<[](const BodyPartRow& each) {
+    return each.side == kSide && each.parent != each.part;
+  }>();
+  std::array<Bone, kEnds.size()> bones{};
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    const BodyPart from = row(kEnds[i]).parent;
+    bones[i] = {row(from).side         ? from
+                : kSide == Side::right ? BodyPart::hip_r
+                                       : BodyPart::hip_l,
+                kEnds[i]};
+  }
+  return bones;
+}();
+
 static_assert(
     [] {
       for (std::size_t i = 0; i < kBodyPartRows.size(); ++i) {
@@ -121,12 +154,14 @@ static_assert(
         const BodyPartRow& other = row(each.mirrored);
         if (each.part != static_cast<BodyPart>(i) || each.name.empty() || each.osim_body.empty() ||
             other.mirrored != each.part || (other.part == each.part) != !each.side ||
-            (each.side && other.side == each.side) || row(each.parent).mirrored != other.parent)
+            (each.side && other.side == each.side) || row(each.parent).mirrored != other.parent ||
+            (each.side == Side::right && each.mirrored < each.part))
           return false;
       }
       return true;
     }(),
-    "each part needs one row, in the order of the enumeration, and right and left must match");
+    "each part needs one row, in the order of the enumeration; right comes before left and "
+    "matches it");
 
 /// The part of that name. Throws Error with the list of names.
 BodyPart body_part(std::string_view name);

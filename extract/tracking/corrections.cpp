@@ -21,13 +21,6 @@ constexpr double kDoubtful = 1.7;   // times the usual noise
 constexpr double kMemory_s = 0.02;  // correlation time of the detector's noise
 constexpr double kGross = 2.5;      // standard deviations: on another leg, or nonsense
 
-/// Limbs between the pelvis and a part.
-int joints_from_pelvis(BodyPart part) {
-  int joints = 0;
-  for (; row(part).parent != part; part = row(part).parent) ++joints;
-  return joints;
-}
-
 const TrajectoryFrame* frame_of(const Trajectory& points, int frame) {
   const auto found = std::ranges::lower_bound(points.frames, frame, {}, &TrajectoryFrame::frame);
   return found != points.frames.end() && found->frame == frame ? &*found : nullptr;
@@ -150,16 +143,23 @@ double detected_noise_legs(double confidence) {
 }
 
 Convention convention(BodyPart part) {
-  switch (joints_from_pelvis(part)) {
-    case 0:
+  switch (part) {
+    case BodyPart::pelvis:
+    case BodyPart::hip_r:
+    case BodyPart::hip_l:
+    case BodyPart::head:
       return {0.015, 0.015};
-    case 1:
+    case BodyPart::knee_r:
+    case BodyPart::knee_l:
       return {0.012, 0.012};
-    case 2:
+    case BodyPart::ankle_r:
+    case BodyPart::ankle_l:
       return {0.035, 0.012};
-    default:
+    case BodyPart::toe_r:
+    case BodyPart::toe_l:
       return {0.07, 0.02};
   }
+  return {};
 }
 
 Trajectory corrected(const Trajectory& detected, const Trajectory& clicks) {

@@ -14,15 +14,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr auto kJoints = [] {
-  std::array<std::array<BodyPart, 2>, kRightParts.size()> joints{};
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    joints[i] = {kRightParts[i], mirrored(kRightParts[i])};
-  return joints;
-}();
-constexpr std::size_t kKnee = 0, kAnkle = 1, kToe = 2;
-static_assert(kJoints[kKnee][0] == BodyPart::knee_r && kJoints[kAnkle][0] == BodyPart::ankle_r &&
-              kJoints[kToe][0] == BodyPart::toe_r);
+constexpr const auto& kJoints = kLegPairs;
+constexpr std::size_t kKnee = 0, kAnkle = 1;
+static_assert(kJoints[kKnee].right == BodyPart::knee_r &&
+              kJoints[kAnkle].right == BodyPart::ankle_r);
 
 constexpr int kMemory = 3;            // earlier frames from which a joint's path is extrapolated
 constexpr double kChangeCost = 2;     // of a swap that begins or ends
@@ -291,7 +286,7 @@ int near_side(std::optional<Facing> direction) {
 }  // namespace
 
 void swap_legs(TrajectoryFrame& frame) {
-  for (const auto& joint : kJoints) std::swap(frame[joint[0]], frame[joint[1]]);
+  for (const auto& [right, left] : kJoints) std::swap(frame[right], frame[left]);
 }
 
 LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& options) {
@@ -302,7 +297,8 @@ LegIdentity repair_legs(const Trajectory& points, const LegIdentityOptions& opti
   const std::vector<bool> crossed = crossed_feet(legs);
   for (std::size_t i = 0; i < crossed.size(); ++i) {
     if (!crossed[i] || options.clicked_frames.contains(legs.frames[i])) continue;
-    for (const std::size_t joint : {kAnkle, kToe}) {
+    for (std::size_t joint = 0; joint < kJoints.size(); ++joint) {
+      if (!hangs_from(kJoints[joint].right, BodyPart::ankle_r)) continue;
       std::swap(result.repaired.frames[i][kJoints[joint][0]],
                 result.repaired.frames[i][kJoints[joint][1]]);
       std::swap(legs.joints[joint][i].p_px[0], legs.joints[joint][i].p_px[1]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "extract/video/video.h"
 #include "extract/video/video_writer.h"
@@ -100,26 +101,28 @@ void draw_joint(Brush& brush, const Point& point, const cv::Scalar& colour, doub
 }
 
 struct Leg {
-  BodyPart hip, knee, ankle, toe;
+  std::span<const Bone> bones;  // from the hip
+  BodyPart ankle;
 };
-constexpr Leg kRightLeg{BodyPart::hip_r, BodyPart::knee_r, BodyPart::ankle_r, BodyPart::toe_r};
-constexpr Leg kLeftLeg{BodyPart::hip_l, BodyPart::knee_l, BodyPart::ankle_l, BodyPart::toe_l};
+constexpr Leg kRightLeg{kLegBones<Side::right>, BodyPart::ankle_r},
+    kLeftLeg{kLegBones<Side::left>, BodyPart::ankle_l};
 
 void draw_leg(Brush& brush, const TrajectoryFrame& frame, const Leg& leg,
               const cv::Scalar& colour) {
-  const BodyPart top = frame[leg.hip].present() ? leg.hip : BodyPart::pelvis;
-  const std::array chain{top, leg.knee, leg.ankle, leg.toe};
-  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-    const Point &a = frame[chain[i]], &b = frame[chain[i + 1]];
+  const BodyPart hip = leg.bones.front().from;
+  for (const auto& [from, to] : leg.bones) {
+    const Point& a = frame[from == hip && !frame[hip].present() ? BodyPart::pelvis : from];
+    const Point& b = frame[to];
     if (!a.present() || !b.present()) continue;
-    const double width = i < 2 ? 3 : 2, sure = opacity(std::min(a.confidence, b.confidence));
+    const double width = row(to).required ? 3 : 2,
+                 sure = opacity(std::min(a.confidence, b.confidence));
     if (b.seen())
       brush.line(a.p_px, b.p_px, colour, width, sure);
     else
       brush.dashes(a.p_px, b.p_px, colour, width, sure);
   }
-  for (const BodyPart part : {leg.knee, leg.ankle, leg.toe})
-    if (frame[part].present()) draw_joint(brush, frame[part], colour, 3.2);
+  for (const auto& [from, to] : leg.bones)
+    if (frame[to].present()) draw_joint(brush, frame[to], colour, 3.2);
 }
 
 /// Positions of a part on the frames of the last seconds, oldest first, moved with the ground to

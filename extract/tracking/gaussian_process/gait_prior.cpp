@@ -84,7 +84,7 @@ double leg_size_px(const Observations& clicks) {
     for (const Group& group : kLegGroups)
       for (const BodyPart part : {group.right, group.left})
         for (const Observation& o : clicks[index(part)])
-          if (part != BodyPart::hip_r && part != BodyPart::hip_l && o.time_s == pelvis.time_s) {
+          if (row(part).prompt == Prompt::always && o.time_s == pelvis.time_s) {
             squared += (o.p_px - pelvis.p_px).squaredNorm();
             ++n;
           }

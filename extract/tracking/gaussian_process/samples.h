@@ -17,9 +17,9 @@ struct Group {
 
 inline constexpr Group kPelvis{BodyPart::pelvis, BodyPart::pelvis};
 inline constexpr auto kLegGroups = [] {
-  std::array<Group, kRightParts.size()> groups{};
+  std::array<Group, kLegPairs.size()> groups{};
   for (std::size_t i = 0; i < groups.size(); ++i)
-    groups[i] = {kRightParts[i], mirrored(kRightParts[i])};
+    groups[i] = {kLegPairs[i].right, kLegPairs[i].left};
   return groups;
 }();
 inline constexpr Group kHead{BodyPart::head, BodyPart::head};

@@ -43,6 +43,21 @@ TEST(Calibrated, ReadsBackWhatWasSaved) {
   EXPECT_TRUE(std::isnan(loaded.samples[0].sd_m[index(BodyPart::knee_l)].x()));
 }
 
+TEST(Calibrated, ReadsBackEveryPart) {
+  const TemporaryFolder folder;
+  CalibratedTrajectory run = two_samples();
+  for (const BodyPart part : kBodyParts) {
+    run.samples[1].p_m[index(part)] = {0.1 * index(part), -0.5};
+    run.samples[1].sd_m[index(part)] = {0.01, 0.02 + index(part)};
+  }
+  save(run, folder / "a.calibrated.csv");
+  const CalibratedTrajectory loaded = load_calibrated(folder / "a.calibrated.csv");
+  for (const BodyPart part : kBodyParts) {
+    EXPECT_EQ(loaded.samples[1][part], run.samples[1][part]) << name(part);
+    EXPECT_EQ(loaded.samples[1].sd_m[index(part)], run.samples[1].sd_m[index(part)]) << name(part);
+  }
+}
+
 TEST(Calibrated, SaysHowToCureATrajectoryInPixels) {
   const TemporaryFolder folder;
   Trajectory pixels;

@@ -16,26 +16,20 @@ TEST(SagittalModel, PlacesEveryPartWhereOpenSimDoes) {
   const SagittalModel model = default_sagittal_model();
   const Table poses = load_csv(STRIDE_TEST_DATA "/opensim_bodies.csv");
   ASSERT_EQ(poses.rows.size(), 40u);
-  const std::array<std::pair<BodyPart, const char*>, 9> bodies{{{BodyPart::hip_r, "femur_r"},
-                                                                {BodyPart::knee_r, "tibia_r"},
-                                                                {BodyPart::ankle_r, "talus_r"},
-                                                                {BodyPart::toe_r, "toes_r"},
-                                                                {BodyPart::hip_l, "femur_l"},
-                                                                {BodyPart::knee_l, "tibia_l"},
-                                                                {BodyPart::ankle_l, "talus_l"},
-                                                                {BodyPart::toe_l, "toes_l"},
-                                                                {BodyPart::head, "head"}}};
   for (const auto& row : poses.rows) {
     CalibratedSample sample;
     for (std::size_t i = 0; i < kCoordinateNames.size(); ++i)
       sample.coordinates[i] = row[poses.column(kCoordinateNames[i])];
     place_parts(model, sample);
     const Eigen::Vector2d p_pelvis(sample.coordinates[1], sample.coordinates[2]);
-    for (const auto& [part, body] : bodies) {
-      const std::string prefix(body);
-      const Eigen::Vector2d opensim(row[poses.column(prefix + "_x")],
-                                    row[poses.column(prefix + "_y")]);
-      EXPECT_LT((p_pelvis + sample[part] - opensim).norm(), 1e-9) << body;  // 12 digits recorded
+    for (const BodyPartRow& part : kBodyPartRows) {
+      const std::string body(part.osim_body);
+      const Eigen::Vector2d opensim =
+          body == "pelvis"
+              ? p_pelvis
+              : Eigen::Vector2d(row[poses.column(body + "_x")], row[poses.column(body + "_y")]);
+      EXPECT_LT((p_pelvis + sample[part.part] - opensim).norm(), 1e-9)
+          << part.name;  // 12 digits recorded
     }
   }
 }

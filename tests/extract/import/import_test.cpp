@@ -1,7 +1,9 @@
 #include "extract/import/import.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "extract/import/parsing/labels.h"
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
@@ -15,6 +17,27 @@ void expect_point(const Point& point, double x_px, double y_px, double confidenc
   EXPECT_NEAR(point.p_px.x(), x_px, 1e-9);
   EXPECT_NEAR(point.p_px.y(), y_px, 1e-9);
   EXPECT_NEAR(point.confidence, confidence, 1e-9);
+}
+
+/// The parts that a layout of points has not.
+std::vector<BodyPart> missing_in(std::size_t points) {
+  const std::vector<std::string> labels = imports::layout_of(points);
+  const std::vector<Point> all(points, Point{{1, 2}, Source::detected, 1});
+  const auto found = imports::LabelMap(labels, {}, "a layout").parts(all);
+  std::vector<BodyPart> missing;
+  for (const BodyPart part : kBodyParts)
+    if (!found[index(part)].present()) missing.push_back(part);
+  return missing;
+}
+
+TEST(Import, FindsInEveryLayoutTheParts) {
+  using enum BodyPart;
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  for (const std::size_t points : {25, 26, 33, 133, 136})
+    EXPECT_THAT(missing_in(points), IsEmpty()) << points;
+  for (const std::size_t points : {15, 17, 18})
+    EXPECT_THAT(missing_in(points), ElementsAre(toe_r, toe_l)) << points;
 }
 
 TEST(Import, ReadsAFolderOfOpenPose) {

@@ -64,6 +64,20 @@ TEST(Keypoints, ReadBackAsTheyWereSaved) {
   EXPECT_EQ(k.frames.at(12)[BodyPart::toe_l]->state, ClickState::absent);
 }
 
+TEST(Keypoints, ReadBackEveryPart) {
+  for (const BodyPart part : kBodyParts) {
+    const TemporaryFolder folder;
+    Keypoints k = example();
+    k.frames.clear();
+    k.frames[3][part] = {{320.25, 180.5}, ClickState::seen, {}};
+    save(k, folder / "a.keypoints.json");
+    const Keypoints loaded = load_keypoints(folder / "a.keypoints.json");
+    for (const BodyPart other : kBodyParts)
+      EXPECT_EQ(loaded.frames.at(3).placed(other), other == part) << name(other);
+    EXPECT_EQ(loaded.frames.at(3)[part]->p_px, Eigen::Vector2d(320.25, 180.5)) << name(part);
+  }
+}
+
 TEST(Keypoints, KeepWhatALaterProgramAdded) {
   const TemporaryFolder folder;
   const auto file = folder / "a.keypoints.json";

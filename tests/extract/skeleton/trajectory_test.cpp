@@ -31,6 +31,21 @@ TEST(Trajectory, ReadsBackWhatWasSaved) {
   EXPECT_EQ(loaded.frames[1].time_s, 1 / 29.97);
 }
 
+TEST(Trajectory, ReadsBackEveryPart) {
+  for (const BodyPart part : kBodyParts) {
+    const TemporaryFolder folder;
+    Trajectory trajectory;
+    trajectory.rate_hz = 30;
+    trajectory.frames.resize(1);
+    trajectory.frames[0][part] = {{1.25, 2.5}, Source::tracked, 0.75};
+    save(trajectory, folder / "t.csv");
+    const Trajectory loaded = load_trajectory(folder / "t.csv");
+    for (const BodyPart other : kBodyParts)
+      EXPECT_EQ(loaded.frames[0][other].present(), other == part) << name(other);
+    EXPECT_EQ(loaded.frames[0][part].p_px, Eigen::Vector2d(1.25, 2.5)) << name(part);
+  }
+}
+
 TEST(Trajectory, RefusesSizesAndFramesThatAreNoWholeNumbers) {
   const TemporaryFolder folder;
   const auto load = [&](const char* width, const char* row) {
