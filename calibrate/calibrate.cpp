@@ -65,7 +65,7 @@ void fit_facing(const Trajectory& trajectory, bool to_left, const SagittalModel&
 void fit_passage_facing(const Trajectory& trajectory, bool to_left, const SagittalModel& model,
                         const fit::FitOptions& options, Calibration& result) {
   AperiodicCalibration& own = result.aperiodic.emplace();
-  result.observations = fit::observe(trajectory, to_left);
+  result.observations = fit::observe(trajectory, to_left, fit::Heels::left_out);
   const Directions directions(model);
   own.fit = aperiodic::fit_passage(result.observations, model, movement(trajectory.movement).legs);
   if (!own.fit.ok) return;

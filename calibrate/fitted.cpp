@@ -23,6 +23,9 @@ bool is_known(const fit::StrideFit& fit, BodyPart part) {
     case BodyPart::toe_r:
     case BodyPart::toe_l:
       return fit.toes_seen;
+    case BodyPart::heel_r:
+    case BodyPart::heel_l:
+      return fit.heels_seen;
     case BodyPart::head:
       return fit.head_seen;
   }
@@ -82,7 +85,7 @@ double sd_px(const aperiodic::PassageFit& fit, const Directions& directions, Bod
 Trajectory fitted_passage_px(Trajectory fitted, const Directions& directions,
                              const Calibration& result) {
   const aperiodic::PassageFit& fit = result.aperiodic->fit;
-  for (const BodyPart part : kBodyParts) {
+  for (const BodyPart part : kAskedParts) {
     const bool seen = result.observations.count[index(part)] > 0;
     for (std::size_t i = 0; i < fitted.frames.size(); ++i) {
       Point& point = fitted.frames[i][part];
@@ -102,13 +105,15 @@ Trajectory fitted_points(const Trajectory& trajectory, const SagittalModel& mode
   const Directions directions(model);
   Trajectory fitted = trajectory;
   if (c.aperiodic) {
-    for (std::size_t i = 0; i < fitted.frames.size(); ++i)
-      for (const BodyPart part : kBodyParts)
+    for (std::size_t i = 0; i < fitted.frames.size(); ++i) {
+      fitted.frames[i].points = {};
+      for (const BodyPart part : kAskedParts)
         fitted.frames[i][part] = {
             fit::image_px(trajectory, c.observations.to_left,
                           aperiodic::predicted_px(c.aperiodic->fit.passage, directions, part,
                                                   static_cast<int>(i), c.observations.u_s[i])),
             Source::predicted, 1};
+    }
     return fitted;
   }
   for (std::size_t i = 0; i < fitted.frames.size(); ++i)

@@ -8,7 +8,7 @@ class Markers final : public Costume {
  public:
   std::vector<Patch> dress(const Skeleton& skeleton, const Proportions&, bool) const override {
     std::vector<Patch> patches;
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       Patch& disc = patches.emplace_back();
       // A round end before and after almost nothing.
       constexpr double kLength = 1e-6;

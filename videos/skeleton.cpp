@@ -52,6 +52,10 @@ const Vector3d& Skeleton::operator[](BodyPart part) const {
       return toe[1];
     case BodyPart::hip_l:
       return hip[1];
+    case BodyPart::heel_r:
+      return heel[0];
+    case BodyPart::heel_l:
+      return heel[1];
     case BodyPart::head:
       break;
   }
@@ -104,6 +108,7 @@ Skeleton stand(const Posture& posture, const Proportions& p, double x_m, double 
     s.knee[side].z() = sign * 0.5 * (p.hip_half_width + p.ankle_half_width);
     s.ankle[side] = s.knee[side] + hanging(s.shank_angle[side], p.shank);
     s.ankle[side].z() = sign * p.ankle_half_width;
+    s.heel[side] = s.ankle[side] + on_foot(s.foot_angle[side], -p.heel_back, -p.toe_down);
     s.toe[side] = s.ankle[side] + on_foot(s.foot_angle[side], p.toe_forward, -p.toe_down);
 
     s.upper_arm_angle[side] = posture.upper_arm[side];

@@ -25,7 +25,7 @@ struct Skeleton {
   double pelvis_tilt = 0;
   std::array<double, 2> hip_flexion{}, knee_angle{}, ankle_angle{};
   Eigen::Vector3d pelvis, shoulders, head;  // the midpoint of the hips, of the shoulders
-  std::array<Eigen::Vector3d, 2> hip, knee, ankle, toe, shoulder, elbow, wrist;
+  std::array<Eigen::Vector3d, 2> hip, knee, ankle, toe, heel, shoulder, elbow, wrist;
   double trunk_lean = 0, head_pitch = 0;
   /// Angle of a segment from straight down, forward positive; of the foot, toes up.
   std::array<double, 2> thigh_angle{}, shank_angle{}, foot_angle{}, upper_arm_angle{},

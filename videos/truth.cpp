@@ -38,7 +38,7 @@ Trajectory truth_px(const Clip& clip) {
     frame.time_s = clip.time_s(i);
     const Skeleton skeleton = motion.skeleton(frame.time_s);
     const PinholeCamera camera = motion.camera(frame.time_s);
-    for (const BodyPart part : kBodyParts)
+    for (const BodyPart part : kAskedParts)
       frame[part] = {camera.project(skeleton[part]), Source::clicked, 1};
   }
   return trajectory;
@@ -70,7 +70,7 @@ Table truth_m(const Clip& clip) {
                    "pelvis_tilt",  "pelvis_tx",     "pelvis_ty",     "hip_flexion_r",
                    "knee_angle_r", "ankle_angle_r", "hip_flexion_l", "knee_angle_l",
                    "ankle_angle_l"};
-  for (const BodyPart part : kBodyParts)
+  for (const BodyPart part : kAskedParts)
     for (const char* axis : {"x", "y"})
       table.columns.push_back(fmt::format("{}_{}", name(part), axis));
   for (int i = 0; i < clip.frames; ++i) {
@@ -81,7 +81,7 @@ Table truth_m(const Clip& clip) {
         s.pelvis_tilt,          s.pelvis.x(), s.pelvis.y()};
     for (int side : {0, 1})
       row.insert(row.end(), {s.hip_flexion[side], s.knee_angle[side], s.ankle_angle[side]});
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       const Eigen::Vector3d p = s[part] - s.pelvis;
       row.insert(row.end(), {p.x(), p.y()});
     }

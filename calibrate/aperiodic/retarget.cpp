@@ -18,6 +18,7 @@ CalibratedSample pose_at(const Angles& angles, double roll_rad, const SagittalMo
   for (int i = 0; i < 6; ++i)
     sample.coordinates[static_cast<std::size_t>(3 + i)] = angles[static_cast<std::size_t>(1 + i)];
   place_parts(model, sample);
+  forget_heels(sample);
   return sample;
 }
 
@@ -53,12 +54,13 @@ void add_deviations(const PassageFit& fit, const GroundPath& path, double u_s,
   const SplinePlace at = fit.passage.place(u_s);
   const Angles angles = fit.passage.angles(u_s);
   constexpr double kStep_rad = 1e-4;
-  Eigen::Matrix<double, 2 * kBodyPartCount, kAngles> by_angle;
+  constexpr int kPlaced = static_cast<int>(kAskedParts.size());
+  Eigen::Matrix<double, 2 * kPlaced, kAngles> by_angle;
   for (int a = 0; a < kAngles; ++a) {
     Angles moved = angles;
     moved[static_cast<std::size_t>(a)] += kStep_rad;
     const CalibratedSample there = pose_at(moved, path.roll_rad, model);
-    for (int part = 0; part < kBodyPartCount; ++part)
+    for (int part = 0; part < kPlaced; ++part)
       by_angle.block<2, 1>(2 * part, a) =
           (there.p_m[static_cast<std::size_t>(part)] - sample.p_m[static_cast<std::size_t>(part)]) /
           kStep_rad;
@@ -75,7 +77,7 @@ void add_deviations(const PassageFit& fit, const GroundPath& path, double u_s,
   covariance(tilt, tilt) += path.roll_sd_rad * path.roll_sd_rad;
   const Eigen::VectorXd sd =
       (by_angle * covariance * by_angle.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
-  for (int part = 0; part < kBodyPartCount; ++part)
+  for (int part = 0; part < kPlaced; ++part)
     sample.sd_m[static_cast<std::size_t>(part)] = sd.segment<2>(2 * part);
   sample.pelvis_height_sd_m = sample.sd_m[static_cast<std::size_t>(index(BodyPart::ankle_r))].y();
 }

@@ -89,7 +89,7 @@ PassageFit start(const fit::Marks& marks, const Directions& directions, double k
   constexpr double kUnseenTilt_rad = -0.17;
   PassageFit fit;
   fit.passage = empty_passage(marks.u_s, knot_s);
-  fit.toes_seen = marks.sees(BodyPart::toe_r) || marks.sees(BodyPart::toe_l);
+  fit.toes_seen = marks.sees_toes();
   fit.head_seen = marks.sees(BodyPart::head);
   const Grid grid = grid_of(marks);
   Passage& p = fit.passage;

@@ -108,7 +108,7 @@ Runner guess_runner(const Marks& all, const SagittalModel& model, double period_
   const Directions directions(model);
   const Curve knee = fit_curve(relative_marks(all, BodyPart::knee_r), period_s, kGuessHarmonics),
               ankle = fit_curve(relative_marks(all, BodyPart::ankle_r), period_s, kGuessHarmonics);
-  const bool toes = all.sees(BodyPart::toe_r) || all.sees(BodyPart::toe_l);
+  const bool toes = all.sees_toes();
   Curve toe = ankle;
   if (toes) toe = fit_curve(relative_marks(all, BodyPart::toe_r), period_s, kGuessHarmonics);
 

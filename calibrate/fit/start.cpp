@@ -16,7 +16,7 @@ void place_pelvis(const FitProblem& problem, StrideFit& fit) {
   std::vector<std::vector<double>> x(fit.pelvis_px.size()), y(fit.pelvis_px.size());
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) pelvis.setZero();
   for (const Mark& mark : problem.observations.points) {
-    if (mark.part == BodyPart::head) continue;
+    if (mark.part == BodyPart::head || is_heel(mark.part)) continue;
     const Eigen::Vector2d p =
         mark.z_px - predicted_px(fit, problem.directions, mark.part, mark.frame, mark.u_s);
     x[mark.frame].push_back(p.x());
@@ -46,7 +46,9 @@ int max_harmonics(const Marks& observations, const Runner& runner) {
 StrideFit start(const FitProblem& problem, const StridePeriod& guess) {
   StrideFit fit;
   const Marks& all = problem.observations;
-  fit.toes_seen = all.sees(BodyPart::toe_r) || all.sees(BodyPart::toe_l);
+  fit.toes_seen = all.sees_toes();
+  fit.heels_seen = all.sees_heels();
+  fit.heel = usual_heel(problem);
   fit.head_seen = all.sees(BodyPart::head);
   fit.explained = guess.explained;
   fit.harmonics = problem.options.harmonics > 0 ? problem.options.harmonics : 3;

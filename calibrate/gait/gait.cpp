@@ -128,12 +128,14 @@ double duty(const FootPath& path, bool walks) {
 /// Standard deviations of a sample's points and height, from the covariance of the fit.
 void add_deviations(const fit::StrideFit& fit, const SagittalModel& model, double phase,
                     CalibratedSample& sample) {
+  const int placed =
+      fit.heels_seen ? kBodyPartCount : static_cast<int>(kAskedParts.size());  // of the parts
   const Eigen::VectorXd sd =
       fit::propagated_sd(fit, [&](const fit::StrideFit& moved) -> Eigen::VectorXd {
         const CalibratedSample at = pose_at(moved, model, phase);
-        return Eigen::Map<const Eigen::VectorXd>(at.p_m.front().data(), 2 * kBodyPartCount);
+        return Eigen::Map<const Eigen::VectorXd>(at.p_m.front().data(), 2 * placed);
       });
-  for (int part = 0; part < kBodyPartCount; ++part) sample.sd_m[part] = sd.segment<2>(2 * part);
+  for (int part = 0; part < placed; ++part) sample.sd_m[part] = sd.segment<2>(2 * part);
   const Eigen::Vector4d w = fit::VerticalOscillation::weights(phase);
   // The mean height follows from the lowest foot, so it is as uncertain as an ankle's height.
   const double height_variance = w.dot(fit.vertical_oscillation.covariance * w) +
@@ -157,6 +159,7 @@ CalibratedSample pose_at(const fit::StrideFit& fit, const SagittalModel& model, 
     sample.coordinates[first + 2] = leg.ankle;
   }
   place_parts(model, sample);
+  if (!fit.heels_seen) forget_heels(sample);
   return sample;
 }
 

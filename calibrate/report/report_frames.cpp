@@ -53,12 +53,13 @@ class Tile {
 
 void draw_runner(const TrajectoryFrame& fitted, const TrajectoryFrame& labelled, bool to_left,
                  Tile& tile) {
-  const auto leg = [&](std::span<const Bone> bones, const cv::Scalar& colour) {
+  const auto lines = [&](std::span<const Bone> bones, const cv::Scalar& colour) {
     for (const auto& [from, to] : bones)
-      if (fitted[to].present()) tile.bone(fitted[from].p_px, fitted[to].p_px, colour);
+      if (fitted[from].present() && fitted[to].present())
+        tile.bone(fitted[from].p_px, fitted[to].p_px, colour);
   };
-  const auto right = [&] { leg(kLegBones<Side::right>, kRight); };
-  const auto left = [&] { leg(kLegBones<Side::left>, kLeft); };
+  const auto right = [&] { lines(kLegBones<Side::right>, kRight), lines({&kSoles[0], 1}, kRight); };
+  const auto left = [&] { lines(kLegBones<Side::left>, kLeft), lines({&kSoles[1], 1}, kLeft); };
   // The right leg of a runner who faces right is in front.
   if (to_left)
     right(), left();

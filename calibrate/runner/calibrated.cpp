@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "extract/io/error.h"
@@ -29,13 +30,13 @@ void visit_numbers(Calibrated& run, Visit visit) {
 
 /// Every cell of a sample, by the name of its column.
 template <typename Sample, typename Visit>
-void visit_cells(Sample& sample, Visit visit) {
+void visit_cells(Sample& sample, const std::vector<BodyPart>& parts, Visit visit) {
   visit("time_s", sample.time_s);
   visit("phase", sample.phase);
   for (std::size_t i = 0; i < kCoordinateNames.size(); ++i)
     visit(kCoordinateNames[i], sample.coordinates[i]);
   visit("pelvis_ty_sd", sample.pelvis_height_sd_m);
-  for (const BodyPart part : kBodyParts) {
+  for (const BodyPart part : parts) {
     auto& p = sample.p_m[index(part)];
     auto& sd = sample.sd_m[index(part)];
     visit(fmt::format("{}_x", name(part)), p.x());
@@ -51,6 +52,11 @@ std::array<Eigen::Vector2d, kBodyPartCount> CalibratedSample::unknown_points() {
   std::array<Eigen::Vector2d, kBodyPartCount> points;
   points.fill(Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
   return points;
+}
+
+void forget_heels(CalibratedSample& sample) {
+  for (const BodyPart part : kBodyParts)
+    if (is_heel(part)) sample.p_m[index(part)].setConstant(CalibratedTrajectory::kUnknown);
 }
 
 CalibratedTrajectory load_calibrated(const std::filesystem::path& file) {
@@ -76,9 +82,11 @@ CalibratedTrajectory load_calibrated(const std::filesystem::path& file) {
           "{}: period_s = {}: must be positive: the stride of a run has a duration", file.string(),
           run.period_s);
 
+  const std::vector<BodyPart> parts = parts_in_file(
+      [&](BodyPart part) { return table.has_column(fmt::format("{}_x", name(part))); });
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     CalibratedSample& sample = run.samples.emplace_back();
-    visit_cells(sample, [&](const std::string& column, double& value) {
+    visit_cells(sample, parts, [&](const std::string& column, double& value) {
       const bool deviation = column.ends_with("_sd");
       if (deviation && !table.has_column(column)) return;
       value = table.rows[i][table.column(column)];
@@ -107,11 +115,16 @@ void save(const CalibratedTrajectory& run, const std::filesystem::path& file) {
     if (std::isfinite(value)) table.set_meta(key, fmt::format("{}", value));
   });
   table.set_meta("verdict", run.verdict);
+  const std::vector<BodyPart> parts = parts_in_file([&](BodyPart part) {
+    return std::ranges::all_of(
+        run.samples, [&](const CalibratedSample& sample) { return sample[part].allFinite(); });
+  });
   const CalibratedSample none;
-  visit_cells(none, [&](const std::string& column, double) { table.columns.push_back(column); });
+  visit_cells(none, parts,
+              [&](const std::string& column, double) { table.columns.push_back(column); });
   for (const CalibratedSample& sample : run.samples) {
     auto& row = table.rows.emplace_back();
-    visit_cells(sample, [&](const std::string&, double value) { row.push_back(value); });
+    visit_cells(sample, parts, [&](const std::string&, double value) { row.push_back(value); });
   }
   save(table, file);
 }

@@ -28,8 +28,9 @@ struct CalibratedSample {
   double pelvis_height_sd_m = std::numeric_limits<double>::quiet_NaN();
   /// p_PK of every part of the model: from the model's pelvis origin P (7.1 cm in front of and 6.6
   /// cm above the hips), in axes of the ground, not of the tilting pelvis, m. Knee: origin of
-  /// tibia; ankle: of talus; toe: of toes; hip: of femur; head: of head. `pelvis` is (0, 0).
-  std::array<Eigen::Vector2d, kBodyPartCount> p_m;
+  /// tibia; ankle: of talus; toe: of toes; heel: of calcn, NaN where no heel was seen; hip: of
+  /// femur; head: of head. `pelvis` is (0, 0).
+  std::array<Eigen::Vector2d, kBodyPartCount> p_m = unknown_points();
   /// One standard deviation of p_m; NaN if unknown.
   std::array<Eigen::Vector2d, kBodyPartCount> sd_m = unknown_points();
 
@@ -37,6 +38,9 @@ struct CalibratedSample {
 
   static std::array<Eigen::Vector2d, kBodyPartCount> unknown_points();
 };
+
+/// Where no heels were seen a sample has none.
+void forget_heels(CalibratedSample& sample);
 
 /// A run on the proportions of the model, from a trajectory (`calibrate/`) or an agent's episode
 /// (`train/`).
@@ -58,7 +62,8 @@ struct CalibratedTrajectory {
 
 /// NAME.calibrated.csv: `# stride calibrated 1`, unit m; columns time_s, phase, the coordinates by
 /// name, pelvis_ty_sd, and <part>_x, <part>_y, <part>_x_sd, <part>_y_sd (the deviations may be
-/// absent). Errors name the file, and the cure if the file is a trajectory in pixels.
+/// absent; so may the heels). Errors name the file, and the cure if the file is a trajectory in
+/// pixels.
 CalibratedTrajectory load_calibrated(const std::filesystem::path& file);
 void save(const CalibratedTrajectory& trajectory, const std::filesystem::path& file);
 

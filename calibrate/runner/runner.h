@@ -22,6 +22,9 @@ enum { period_s, drift_hz_s, size };  // phase φ(u) = u / period + drift u² / 
 namespace body {  // m; hip: from the marked pelvis to the midpoint of the hips; lumbar in rad
 enum { thigh, shank, foot, trunk, hip_x, hip_y, lumbar, size };
 }
+namespace heel {  // of the foot's frame, from the ankle, m; a block beside the runner's
+enum { forward, up, size };
+}
 namespace sides {  // half of right − left. depth: the nearer leg looks larger; hips: m
 enum { depth, hip_x, hip_y, swing_cos, swing_sin, drop_cos, drop_sin, size };
 }
@@ -100,6 +103,7 @@ struct Directions {
 };
 
 /// Position of a part relative to the labelled pelvis, m: limbs of fixed length, knees as hinges.
+/// Of a heel that of its ankle.
 template <typename T>
 Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body, const T* sides,
                       const T& tilt, const LegAngles<T>& leg, const T& phase) {
@@ -126,6 +130,16 @@ Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body
     }
   }
   return magnification * p;
+}
+
+/// The same of a heel.
+template <typename T>
+Vector2<T> place_heel(BodyPart part, const Directions& directions, const T* body, const T* sides,
+                      const T& tilt, const LegAngles<T>& leg, const T& phase, const T* heel) {
+  const T foot_angle = tilt + leg.hip + leg.knee + leg.ankle,
+          magnification = 1.0 + double(side_of(part)) * sides[sides::depth];
+  return place_part(part, directions, body, sides, tilt, leg, phase) +
+         magnification * turned(foot_angle, Vector2<T>(heel[heel::forward], heel[heel::up]));
 }
 
 }  // namespace stride

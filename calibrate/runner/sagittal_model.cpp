@@ -80,14 +80,15 @@ SagittalModel sagittal_model(const osim::Model& model) {
   result.knee_x_m = knee_translation(model, knee, 0);
   result.knee_y_m = knee_translation(model, knee, 1);
   result.p_tibia_talus_m = flat(joint_of(model, "talus_r").location_in_parent_m);
-  const Eigen::Vector2d p_talus_calcn = flat(joint_of(model, "calcn_r").location_in_parent_m);
-  result.p_talus_toes_m = p_talus_calcn + flat(joint_of(model, "toes_r").location_in_parent_m);
+  result.p_talus_heel_m = flat(joint_of(model, "calcn_r").location_in_parent_m);
+  result.p_talus_toes_m =
+      result.p_talus_heel_m + flat(joint_of(model, "toes_r").location_in_parent_m);
   result.hip = range(model, "hip_flexion_r");
   result.knee = range(model, "knee_angle_r");
   result.ankle = range(model, "ankle_angle_r");
   for (const osim::ContactSphere& sphere : model.spheres) {
     if (sphere.body == model.body("calcn_r"))
-      result.spheres.push_back({p_talus_calcn + flat(sphere.location_m), sphere.radius_m});
+      result.spheres.push_back({result.p_talus_heel_m + flat(sphere.location_m), sphere.radius_m});
     if (sphere.body == model.body("toes_r"))
       result.spheres.push_back({result.p_talus_toes_m + flat(sphere.location_m), sphere.radius_m});
   }
@@ -122,6 +123,10 @@ void place_parts(const SagittalModel& model, CalibratedSample& sample) {
         return left.toe;
       case BodyPart::hip_l:
         return left.hip;
+      case BodyPart::heel_r:
+        return right.heel;
+      case BodyPart::heel_l:
+        return left.heel;
       case BodyPart::head:
         break;
     }

@@ -37,7 +37,7 @@ struct SagittalModel {
   std::string name;
   Eigen::Vector2d p_pelvis_hip_m, p_pelvis_head_m;
   osim::SplineCoefficients knee_x_m, knee_y_m;  // p_femur_tibia against the knee angle
-  Eigen::Vector2d p_tibia_talus_m, p_talus_toes_m;
+  Eigen::Vector2d p_tibia_talus_m, p_talus_toes_m, p_talus_heel_m;  // heel: calcn
   /// Range of motion of a joint: up to the end of the transition of its limit. Without a limit, the
   /// range of the coordinate, which nothing enforces.
   Range hip, knee, ankle;
@@ -54,11 +54,12 @@ SagittalModel sagittal_model(const osim::Model& model);
 /// p_PK of a leg: from the pelvis origin, in axes of the ground.
 template <typename T>
 struct Leg {
-  Vector2<T> hip, knee, ankle, toe;
+  Vector2<T> hip, knee, ankle, toe, heel;
   T foot_angle;  // of the talus' frame
 };
 
-/// Where a part of a leg is in the chain: 0 hip, 1 knee, 2 ankle, 3 toe.
+/// Where a part of a leg is in the chain: 0 hip, 1 knee, 2 ankle, 3 toe. A heel hangs from the
+/// ankle.
 inline int joints_below_hip(BodyPart part) {
   switch (part) {
     case BodyPart::pelvis:
@@ -71,6 +72,8 @@ inline int joints_below_hip(BodyPart part) {
       return 1;
     case BodyPart::ankle_r:
     case BodyPart::ankle_l:
+    case BodyPart::heel_r:
+    case BodyPart::heel_l:
       return 2;
     case BodyPart::toe_r:
     case BodyPart::toe_l:
@@ -91,6 +94,7 @@ Leg<T> place_leg(const SagittalModel& model, const T& tilt, const T& hip, const 
                                                       osim::evaluate(model.knee_y_m, knee)));
   leg.ankle = leg.knee + turned(shank_angle, model.p_tibia_talus_m);
   leg.toe = leg.ankle + turned(leg.foot_angle, model.p_talus_toes_m);
+  leg.heel = leg.ankle + turned(leg.foot_angle, model.p_talus_heel_m);
   return leg;
 }
 

@@ -50,22 +50,25 @@ void write_trc(const Trajectory& trajectory, const fs::path& file) {
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   const auto frames = trajectory.frames.size();
+  const std::vector<BodyPart> all = seen_parts(trajectory);
   fmt::format_to(to, "PathFileType\t4\t(X/Y/Z)\t{}\n", file.filename().string());
   fmt::format_to(to,
                  "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
                  "OrigDataStartFrame\tOrigNumFrames\n");
   fmt::format_to(to, "{0}\t{0}\t{1}\t{2}\tpx\t{0}\t{3}\t{1}\n", trajectory.rate_hz, frames,
-                 kBodyPartCount, frames > 0 ? trajectory.frames[0].frame : 0);
+                 all.size(), frames > 0 ? trajectory.frames[0].frame : 0);
   fmt::format_to(to, "Frame#\tTime");
-  for (const BodyPart part : kBodyParts) fmt::format_to(to, "\t{}\t\t", name(part));
+  for (const BodyPart part : all) fmt::format_to(to, "\t{}\t\t", name(part));
   fmt::format_to(to, "\n\t");
-  for (int i = 1; i <= kBodyPartCount; ++i) fmt::format_to(to, "\tX{0}\tY{0}\tZ{0}", i);
+  for (std::size_t i = 1; i <= all.size(); ++i) fmt::format_to(to, "\tX{0}\tY{0}\tZ{0}", i);
   fmt::format_to(to, "\n");
   for (const TrajectoryFrame& frame : trajectory.frames) {
     fmt::format_to(to, "{}\t{}", frame.frame, frame.time_s);
-    for (const Point& point : frame.points)
+    for (const BodyPart part : all) {
+      const Point& point = frame[part];
       point.present() ? fmt::format_to(to, "\t{}\t{}\t0", point.p_px.x(), point.p_px.y())
                       : fmt::format_to(to, "\t\t\t");
+    }
     fmt::format_to(to, "\n");
   }
   write_file_atomically(file, {out.data(), out.size()});
@@ -73,7 +76,8 @@ void write_trc(const Trajectory& trajectory, const fs::path& file) {
 
 void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
   std::vector<std::string> scorer{"scorer"}, parts{"bodyparts"}, coords{"coords"};
-  for (const BodyPart part : kBodyParts)
+  const std::vector<BodyPart> all = seen_parts(trajectory);
+  for (const BodyPart part : all)
     for (const char* coordinate : {"x", "y", "likelihood"}) {
       scorer.emplace_back("stride");
       parts.emplace_back(name(part));
@@ -85,10 +89,12 @@ void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
     fmt::format_to(to, "{}\n", fmt::join(*row, ","));
   for (const TrajectoryFrame& frame : trajectory.frames) {
     fmt::format_to(to, "{}", frame.frame);
-    for (const Point& point : frame.points)
+    for (const BodyPart part : all) {
+      const Point& point = frame[part];
       point.present()
           ? fmt::format_to(to, ",{},{},{}", point.p_px.x(), point.p_px.y(), point.confidence)
           : fmt::format_to(to, ",,,");
+    }
     fmt::format_to(to, "\n");
   }
   write_file_atomically(file, {out.data(), out.size()});

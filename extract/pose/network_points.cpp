@@ -34,7 +34,7 @@ struct Landmarks {
 };
 constexpr double kKnee = 0.016;
 std::optional<Landmarks> landmarks_of(BodyPart part) {
-  constexpr double kAnkle = 0.025, kToe = 0.034, kHead = 0.03;
+  constexpr double kAnkle = 0.025, kToe = 0.034, kHead = 0.03, kHeel = 0.03;
   switch (part) {
     case BodyPart::pelvis:
       return Landmarks{{23, 24}, kKnee};
@@ -50,6 +50,10 @@ std::optional<Landmarks> landmarks_of(BodyPart part) {
       return Landmarks{{32, 32}, kToe};
     case BodyPart::toe_l:
       return Landmarks{{31, 31}, kToe};
+    case BodyPart::heel_r:
+      return Landmarks{{30, 30}, kHeel};
+    case BodyPart::heel_l:
+      return Landmarks{{29, 29}, kHeel};
     case BodyPart::head:
       return Landmarks{{7, 8}, kHead};
     // The pelvis' own landmarks: as points beside it they would count twice, and the network's two

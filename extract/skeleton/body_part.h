@@ -3,21 +3,36 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "extract/io/names.h"
 
 namespace stride {
 
 /// The labelled parts of a runner. The pelvis is the midpoint of the hips, every other part the
-/// centre of its joint; the toe is the tip of the big toe, the head its centre. `_r` and `_l` are
-/// the runner's own right and left.
-enum class BodyPart { pelvis, knee_r, ankle_r, toe_r, hip_r, knee_l, ankle_l, toe_l, hip_l, head };
+/// centre of its joint; the toe is the tip of the big toe, the heel its back, the head its centre.
+/// `_r` and `_l` are the runner's own right and left.
+enum class BodyPart {
+  pelvis,
+  knee_r,
+  ankle_r,
+  toe_r,
+  hip_r,
+  knee_l,
+  ankle_l,
+  toe_l,
+  hip_l,
+  head,
+  heel_r,
+  heel_l
+};
 
 enum class Side { right, left };
 inline constexpr Names<Side> kSides({{Side::right, "right"}, {Side::left, "left"}});
 
-/// When `stride annotate` asks for a part.
-enum class Prompt { always, with_hips, with_head };
+/// When `stride annotate` asks for a part. Never: it comes from networks and other programs, and
+/// files have it only where it was seen.
+enum class Prompt { always, with_hips, with_head, never };
 
 /// What the program knows of a part. All that names, mirrors, joins, prompts for, imports or
 /// exports parts reads this table; a part without a row does not compile.
@@ -44,7 +59,7 @@ inline constexpr std::array<BodyPartRow, enumerator_count<BodyPart>()> kBodyPart
                                                  "centerhip", "root"},
       kKnee{"knee", "kneejoint"}, kAnkle{"ankle", "anklejoint"},
       kToe{"toe", "bigtoe", "toes", "toetip", "hallux", "footindex"}, kHip{"hip", "hipjoint"},
-      kHead{"head", "headcenter", "headcentre"};
+      kHead{"head", "headcenter", "headcentre"}, kHeel{"heel", "calcaneus", "calcn"};
   // BODY_25 has no head: ours becomes its nose.
   // clang-format off
   return std::array<BodyPartRow, enumerator_count<BodyPart>()>{{
@@ -59,6 +74,8 @@ inline constexpr std::array<BodyPartRow, enumerator_count<BodyPart>()> kBodyPart
       {toe_l,   "toe_l",   left,  toe_r,   ankle_l, "toes_l",  19, kOptional, always,    kToe},
       {hip_l,   "hip_l",   left,  hip_r,   hip_l,   "femur_l", 12, kOptional, with_hips, kHip},
       {head,    "head",    {},    head,    head,    "head",     0, kOptional, with_head, kHead},
+      {heel_r,  "heel_r",  right, heel_l,  ankle_r, "calcn_r", 24, kOptional, never,     kHeel},
+      {heel_l,  "heel_l",  left,  heel_r,  ankle_l, "calcn_l", 21, kOptional, never,     kHeel},
   }};
   // clang-format on
 }();
@@ -74,6 +91,10 @@ constexpr BodyPart mirrored(BodyPart part) { return row(part).mirrored; }
 constexpr int side_of(BodyPart part) {
   const std::optional<Side> side = row(part).side;
   return !side ? 0 : *side == Side::right ? 1 : -1;
+}
+
+constexpr bool is_heel(BodyPart part) {
+  return part == BodyPart::heel_r || part == BodyPart::heel_l;
 }
 
 /// The parts for which `chosen(row)` holds, in the order of the enumeration.
@@ -93,6 +114,21 @@ consteval auto parts_where() {
 
 inline constexpr auto kBodyParts = parts_where<[](const BodyPartRow&) { return true; }>();
 inline constexpr int kBodyPartCount = static_cast<int>(kBodyParts.size());
+
+/// The parts that a person can be asked for. They come first.
+inline constexpr auto kAskedParts =
+    parts_where<[](const BodyPartRow& each) { return each.prompt != Prompt::never; }>();
+static_assert(index(kAskedParts.back()) + 1 == static_cast<int>(kAskedParts.size()));
+
+/// The parts that a file of points has: those that a person can be asked for, and every other one
+/// for which `is_seen(part)` holds.
+template <typename IsSeen>
+std::vector<BodyPart> parts_in_file(IsSeen is_seen) {
+  std::vector<BodyPart> parts(kAskedParts.begin(), kAskedParts.end());
+  for (const BodyPart part : kBodyParts)
+    if (row(part).prompt == Prompt::never && is_seen(part)) parts.push_back(part);
+  return parts;
+}
 
 /// The parts that a potential needs.
 inline constexpr auto kRequiredParts =
@@ -146,6 +182,10 @@ inline constexpr auto kLegBones = [] {
   }
   return bones;
 }();
+
+/// The line under each foot, right and left.
+inline constexpr std::array kSoles{Bone{BodyPart::heel_r, BodyPart::toe_r},
+                                   Bone{BodyPart::heel_l, BodyPart::toe_l}};
 
 static_assert(
     [] {

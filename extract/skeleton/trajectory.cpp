@@ -99,6 +99,13 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
   return trajectory;
 }
 
+std::vector<BodyPart> seen_parts(const Trajectory& trajectory) {
+  return parts_in_file([&](BodyPart part) {
+    return std::ranges::any_of(trajectory.frames,
+                               [&](const TrajectoryFrame& frame) { return frame[part].present(); });
+  });
+}
+
 Table table_of(const Trajectory& trajectory) {
   Table table;
   table.format = "trajectory";
@@ -121,8 +128,9 @@ Table table_of(const Trajectory& trajectory) {
   if (trajectory.treadmill) table.set_meta("treadmill", *trajectory.treadmill ? "true" : "false");
   const bool camera = std::ranges::any_of(
       trajectory.frames, [](const TrajectoryFrame& f) { return f.camera_px.allFinite(); });
+  const std::vector<BodyPart> parts = seen_parts(trajectory);
   table.columns = {"frame", "time_s"};
-  for (const BodyPart part : kBodyParts)
+  for (const BodyPart part : parts)
     for (const char* suffix : {"x", "y", "confidence"})
       table.columns.push_back(fmt::format("{}_{}", name(part), suffix));
   if (camera)
@@ -130,8 +138,10 @@ Table table_of(const Trajectory& trajectory) {
   for (const TrajectoryFrame& frame : trajectory.frames) {
     auto& row = table.rows.emplace_back(
         std::vector<double>{static_cast<double>(frame.frame), frame.time_s});
-    for (const Point& point : frame.points)
+    for (const BodyPart part : parts) {
+      const Point& point = frame[part];
       row.insert(row.end(), {point.p_px.x(), point.p_px.y(), point.confidence});
+    }
     if (camera)
       row.insert(row.end(), {frame.camera_px.x(), frame.camera_px.y(), frame.camera_residual_px});
   }

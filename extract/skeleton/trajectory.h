@@ -86,6 +86,9 @@ struct Trajectory {
 Trajectory load_trajectory(const std::filesystem::path& file);
 void save(const Trajectory& trajectory, const std::filesystem::path& file);
 
+/// The parts whose columns a file of the trajectory has.
+std::vector<BodyPart> seen_parts(const Trajectory& trajectory);
+
 /// The content that save() writes.
 Table table_of(const Trajectory& trajectory);
 

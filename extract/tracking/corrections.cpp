@@ -157,6 +157,8 @@ Convention convention(BodyPart part) {
       return {0.035, 0.012};
     case BodyPart::toe_r:
     case BodyPart::toe_l:
+    case BodyPart::heel_r:
+    case BodyPart::heel_l:
       return {0.07, 0.02};
   }
   return {};

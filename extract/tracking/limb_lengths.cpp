@@ -65,17 +65,19 @@ struct Limb {
   double usual_px = 0;
 };
 
-using Places = Eigen::Matrix<double, 2 * kBodyPartCount, 1>;
+/// Of the parts that a person can be asked for: the others end no limb of a known length.
+constexpr int kParts = static_cast<int>(kAskedParts.size());
+using Places = Eigen::Matrix<double, 2 * kParts, 1>;
 
 /// How far each point has to move until the limbs have their lengths: Gauss–Newton.
 Places needed_px(const TrajectoryFrame& frame, const std::vector<Limb>& limbs,
-                 const std::array<double, kBodyPartCount>& sd_px) {
-  constexpr int kSize = 2 * kBodyPartCount;
+                 const std::array<double, kParts>& sd_px) {
+  constexpr int kSize = 2 * kParts;
   Places moved = Places::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Eigen::Matrix<double, kSize, kSize> normal = Eigen::Matrix<double, kSize, kSize>::Zero();
     Places right = Places::Zero();
-    for (int i = 0; i < kBodyPartCount; ++i)
+    for (int i = 0; i < kParts; ++i)
       for (int axis = 0; axis < 2; ++axis)
         normal(2 * i + axis, 2 * i + axis) = std::pow(sd_px[i], -2);
     for (const auto& [bone, length] : limbs) {
@@ -131,13 +133,13 @@ int doubt_broken_limbs(Trajectory& points, double standard_deviation_legs) {
       if (frame[bone.from].present() && frame[bone.to].present()) limbs.push_back({bone, *px});
     }
     if (limbs.empty()) continue;
-    std::array<double, kBodyPartCount> sd_px;
-    for (int i = 0; i < kBodyPartCount; ++i)
+    std::array<double, kParts> sd_px;
+    for (int i = 0; i < kParts; ++i)
       sd_px[i] = standard_deviation_legs * leg_px /
                  std::clamp(frame.points[i].confidence, kLeastConfidence, 1.0);
     const Places moved = needed_px(frame, limbs, sd_px);
     bool is_broken = false;
-    for (int i = 0; i < kBodyPartCount; ++i) {
+    for (int i = 0; i < kParts; ++i) {
       Point& point = frame.points[i];
       const double squared = moved.segment<2>(2 * i).squaredNorm() / (2 * sd_px[i] * sd_px[i]);
       is_broken = is_broken || (point.present() && squared > 1);

@@ -102,25 +102,29 @@ void draw_joint(Brush& brush, const Point& point, const cv::Scalar& colour, doub
 
 struct Leg {
   std::span<const Bone> bones;  // from the hip
+  Bone sole;
   BodyPart ankle;
 };
-constexpr Leg kRightLeg{kLegBones<Side::right>, BodyPart::ankle_r},
-    kLeftLeg{kLegBones<Side::left>, BodyPart::ankle_l};
+constexpr Leg kRightLeg{kLegBones<Side::right>, kSoles[0], BodyPart::ankle_r},
+    kLeftLeg{kLegBones<Side::left>, kSoles[1], BodyPart::ankle_l};
 
 void draw_leg(Brush& brush, const TrajectoryFrame& frame, const Leg& leg,
               const cv::Scalar& colour) {
   const BodyPart hip = leg.bones.front().from;
-  for (const auto& [from, to] : leg.bones) {
+  const auto draw = [&](const Bone& bone) {
+    const auto& [from, to] = bone;
     const Point& a = frame[from == hip && !frame[hip].present() ? BodyPart::pelvis : from];
     const Point& b = frame[to];
-    if (!a.present() || !b.present()) continue;
+    if (!a.present() || !b.present()) return;
     const double width = row(to).required ? 3 : 2,
                  sure = opacity(std::min(a.confidence, b.confidence));
     if (b.seen())
       brush.line(a.p_px, b.p_px, colour, width, sure);
     else
       brush.dashes(a.p_px, b.p_px, colour, width, sure);
-  }
+  };
+  for (const Bone& bone : leg.bones) draw(bone);
+  draw(leg.sole);
   for (const auto& [from, to] : leg.bones)
     if (frame[to].present()) draw_joint(brush, frame[to], colour, 3.2);
 }

@@ -28,7 +28,7 @@ void print_share(const char* what, Parts parts, std::array<const char*, 3> clips
     std::erase_if(truth.frames,
                   [&](const TrajectoryFrame& frame) { return frame.frame % every != 0; });
     for (TrajectoryFrame& frame : truth.frames)
-      for (const BodyPart part : kBodyParts)
+      for (const BodyPart part : kAskedParts)
         if (is_left_out(part, parts)) frame[part] = Point();
     all_right += repaired(spoiled(truth, seed));
     all_frames += static_cast<int>(truth.frames.size());

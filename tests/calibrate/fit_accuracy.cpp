@@ -19,6 +19,7 @@ namespace {
 struct Options {
   std::vector<std::string> clips{"human", "game", "cartoon"};
   std::string from = "clicks";
+  std::vector<std::string> heels{"fitted"};
   unsigned seeds = 10, first = 1;
   bool vary = false, known_leg = false, camera_turns = false;
 };
@@ -133,6 +134,12 @@ int main(int argc, char** argv) try {
                  "on the network's points (both once, "
                  "as a Markdown table)")
       ->check(CLI::IsMember({"clicks", "frames", "video", "network", "corrections"}));
+  app.add_option(
+         "--heels", options.heels,
+         "of a network: fitted, tracked without a say in the fit, or dropped; several for a "
+         "row each")
+      ->check(CLI::IsMember({"fitted", "tracked", "dropped"}))
+      ->capture_default_str();
   app.add_option("--seeds", options.seeds, "how many of each clip");
   app.add_option("--first", options.first, "the first seed");
   app.add_flag("--vary", options.vary, "other proportions, cameras and cadences, too");
@@ -146,8 +153,15 @@ int main(int argc, char** argv) try {
     fmt::print("{}", corrected ? stride::correction_head() : stride::ZeroClicks::table_head());
     for (const std::string& name : options.clips) {
       const stride::videos::Clip clip = stride::videos::clip(name);
-      fmt::print("{}", corrected ? stride::correction_row(clip, model)
-                                 : stride::without_clicks(clip, model).row(clip, model));
+      if (corrected) {
+        fmt::print("{}", stride::correction_row(clip, model));
+      } else {
+        const stride::pose::NetworkPoints seen = stride::seen_by_network(clip);
+        for (const std::string& heels : options.heels)
+          fmt::print("{}",
+                     stride::without_clicks(clip, model, seen, *stride::kSeenHeels.find(heels))
+                         .row(clip, model));
+      }
       std::fflush(stdout);
     }
     return 0;

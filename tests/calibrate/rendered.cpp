@@ -74,7 +74,7 @@ Trajectory observed(const Clip& clip, const Marking& how) {
   const Keypoints clicked = videos::clicks(labelled);
   Trajectory seen = truth;
   for (TrajectoryFrame& frame : seen.frames) {
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       const bool wanted =
           part != BodyPart::head && part != BodyPart::hip_r && part != BodyPart::hip_l;
       const bool here = how.every_frame || clicked.frames.contains(frame.frame);
@@ -150,6 +150,16 @@ Accuracy accuracy(const Calibration& found, const Clip& clip, const SagittalMode
     const CalibratedSample truth = true_sample(motion, model, sample.time_s);
     const double phase = clip.first_phase + sample.time_s / clip.gait.period_s;
     count(sample.coordinates[2] - height.at(phase), sample.pelvis_height_sd_m);
+    for (const int side : {0, 1}) {
+      const BodyPart toe = side == 0 ? BodyPart::toe_r : BodyPart::toe_l;
+      const auto foot = [&](const CalibratedSample& s) {
+        const auto& q = s.coordinates;
+        const auto hip = static_cast<std::size_t>(3 + 3 * side);
+        return q[0] + q[hip] + q[hip + 1] + q[hip + 2];
+      };
+      a.toes_rms_m[side] += (sample[toe] - truth[toe]).squaredNorm() / n;
+      a.feet_rms_rad[side] += std::pow(foot(sample) - foot(truth), 2) / n;
+    }
     for (std::size_t i = 0; i < a.kParts.size(); ++i) {
       const Eigen::Vector2d off = sample[a.kParts[i]] - truth[a.kParts[i]];
       a.rms_m[i] += off.squaredNorm() / n;
@@ -157,6 +167,8 @@ Accuracy accuracy(const Calibration& found, const Clip& clip, const SagittalMode
     }
   }
   for (double& each : a.rms_m) each = std::sqrt(each);
+  for (double& each : a.toes_rms_m) each = std::sqrt(each);
+  for (double& each : a.feet_rms_rad) each = std::sqrt(each);
   return a;
 }
 

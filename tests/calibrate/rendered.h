@@ -35,6 +35,7 @@ struct Accuracy {
   double period = 0, scale = 0, speed = 0;  // relative errors
   double roll_rad = 0;                      // error
   std::array<double, 4> rms_m{};            // of kParts, against the true angles on the model
+  std::array<double, 2> toes_rms_m{}, feet_rms_rad{};  // right, left: likewise; the feet's angles
   int inside = 0, coordinates = 0;   // of knees, ankles and pelvis height, in their 95 % band
   double period_z = 0, scale_z = 0;  // errors in standard deviations
 

@@ -40,7 +40,7 @@ inline Runner synthetic_runner() {
 /// Options of the synthetic clip.
 struct SyntheticClip {
   double rate_hz = 30, duration_s = 3;
-  bool to_left = false, toes = true;
+  bool to_left = false, toes = true, heels = false;
   double noise_px = 0;
   double outliers = 0;  // share of the points that are displaced by 30 to 120 px
   unsigned seed = 1;
@@ -54,6 +54,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
   fit::StrideFit truth;
   truth.runner = runner;
   truth.harmonics = kMaxHarmonics;
+  truth.heel = {-0.07, -0.06};
   truth.pelvis_px.resize(1);
   Trajectory trajectory;
   trajectory.video = "synthetic";
@@ -75,7 +76,7 @@ inline Trajectory synthetic_trajectory(const Runner& runner, const SagittalModel
         10 + 3 * std::cos(0.9 * u) + 5 * std::cos(4 * std::numbers::pi * phase + 0.9)};
     for (const BodyPart part : kBodyParts) {
       const bool toe = part == BodyPart::toe_r || part == BodyPart::toe_l;
-      if (part == BodyPart::head || (toe && !clip.toes)) continue;
+      if (part == BodyPart::head || (toe && !clip.toes) || (is_heel(part) && !clip.heels)) continue;
       Eigen::Vector2d p = fit::predicted_px(truth, Directions(model), part, 0, u);
       if (clip.noise_px > 0) p += Eigen::Vector2d(noise(random), noise(random));
       if (uniform(random) < clip.outliers) {

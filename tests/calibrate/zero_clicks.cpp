@@ -11,7 +11,7 @@
 #include "extract/annotation/points_on_video.h"
 #include "extract/io/random.h"
 #include "extract/io/statistics.h"
-#include "extract/pose/network_points.h"
+#include "extract/skeleton/units.h"
 #include "videos/truth.h"
 
 namespace stride {
@@ -19,6 +19,24 @@ namespace {
 
 constexpr std::array kKnees{BodyPart::knee_r, BodyPart::knee_l};
 constexpr std::array kAnkles{BodyPart::ankle_r, BodyPart::ankle_l};
+constexpr std::array kToes{BodyPart::toe_r, BodyPart::toe_l};
+constexpr std::array kHeels{BodyPart::heel_r, BodyPart::heel_l};
+
+/// The truth with the backs of the shoes as heels.
+Trajectory with_heels(Trajectory truth, const videos::Clip& clip) {
+  const videos::Motion motion(clip);
+  for (TrajectoryFrame& frame : truth.frames)
+    for (const BodyPart part : kHeels)
+      frame[part] = {motion.camera(frame.time_s).project(motion.skeleton(frame.time_s)[part]),
+                     Source::clicked, 1};
+  return truth;
+}
+
+template <typename Frames>
+void drop_heels(Frames& frames) {
+  for (auto& frame : frames)
+    for (const BodyPart part : kHeels) frame[part] = {};
+}
 
 template <typename Frames>
 double rms_px(const Frames& frames, const Trajectory& truth, const std::array<BodyPart, 2>& parts) {
@@ -114,13 +132,22 @@ std::string correction_row(const videos::Clip& clip, const SagittalModel& model)
   return row + fmt::format(" {} |\n", worst_joint(tracked, clip, model));
 }
 
-ZeroClicks without_clicks(const videos::Clip& clip, const SagittalModel& model) {
+pose::NetworkPoints seen_by_network(const videos::Clip& clip) {
+  return pose::network_points(video_of(clip));
+}
+
+ZeroClicks without_clicks(const videos::Clip& clip, const SagittalModel& model,
+                          const pose::NetworkPoints& seen_with_heels, SeenHeels heels) {
   const std::filesystem::path video = video_of(clip);
-  const Trajectory truth = videos::truth_px(clip);
-  const pose::NetworkPoints seen = pose::network_points(video);
-  const Trajectory tracked =
+  const Trajectory truth = with_heels(videos::truth_px(clip), clip);
+  pose::NetworkPoints seen = seen_with_heels;
+  if (heels == SeenHeels::dropped) drop_heels(seen.detections.frames);
+  Trajectory tracked =
       tracking::track(video, tracking::points_on(video, seen.detections, {})).trajectory;
   ZeroClicks result;
+  result.heels_px[0] = rms_px(seen.detections.frames, truth, kHeels);
+  result.heels_px[1] = rms_px(tracked.frames, truth, kHeels);
+  if (heels == SeenHeels::tracked) drop_heels(tracked.frames);
   result.found = calibrate(tracked, model, {});
   result.frames = clip.frames;
   result.lost = clip.frames - static_cast<int>(seen.detections.frames.size());
@@ -130,23 +157,30 @@ ZeroClicks without_clicks(const videos::Clip& clip, const SagittalModel& model) 
   result.knees_px[1] = rms_px(tracked.frames, truth, kKnees);
   result.ankles_px[0] = rms_px(seen.detections.frames, truth, kAnkles);
   result.ankles_px[1] = rms_px(tracked.frames, truth, kAnkles);
+  result.toes_px[0] = rms_px(seen.detections.frames, truth, kToes);
+  result.toes_px[1] = rms_px(tracked.frames, truth, kToes);
   return result;
 }
 
 std::string ZeroClicks::table_head() {
-  return "| clip | leg, px | knees, px | ankles, px | lost | exchanged | period, % | speed, % | "
-         "worst "
-         "joint, cm |\n|---|---|---|---|---|---|---|---|---|\n";
+  return "| clip | leg, px | knees, px | ankles, px | toes, px | heels, px | lost | exchanged | "
+         "period, % | speed, % | worst joint, cm | worst toe, cm | worst foot, deg |\n"
+         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 std::string ZeroClicks::row(const videos::Clip& clip, const SagittalModel& model) const {
   const std::string seen = fmt::format(
-      "| `{}` | {:.0f} | {:.1f} → {:.2f} | {:.1f} → {:.2f} | {} of {} | {} |", clip.name, leg_px,
-      knees_px[0], knees_px[1], ankles_px[0], ankles_px[1], lost, frames, exchanged);
-  if (found.verdict.refused) return seen + fmt::format(" {} | | |\n", found.verdict.text());
+      "| `{}` | {:.0f} | {:.1f} → {:.2f} | {:.1f} → {:.2f} | {:.1f} → {:.2f} | {:.1f} → {:.2f} | "
+      "{} "
+      "of {} | {} |",
+      clip.name, leg_px, knees_px[0], knees_px[1], ankles_px[0], ankles_px[1], toes_px[0],
+      toes_px[1], heels_px[0], heels_px[1], lost, frames, exchanged);
+  if (found.verdict.refused) return seen + fmt::format(" {} | | | | |\n", found.verdict.text());
   const Accuracy a = accuracy(found, clip, model);
-  return seen + fmt::format(" {:+.2f} | {:+.1f} | {:.2f} |\n", 100 * a.period, 100 * a.speed,
-                            100 * a.worst_rms_m());
+  return seen + fmt::format(" {:+.2f} | {:+.1f} | {:.2f} | {:.2f} | {:.1f} |\n", 100 * a.period,
+                            100 * a.speed, 100 * a.worst_rms_m(),
+                            100 * std::ranges::max(a.toes_rms_m),
+                            std::ranges::max(a.feet_rms_rad) / kDegree);
 }
 
 }  // namespace stride

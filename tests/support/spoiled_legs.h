@@ -19,7 +19,7 @@ inline Trajectory detected(const std::string& truth_file) {
     TrajectoryFrame& frame = truth.frames.emplace_back();
     frame.frame = static_cast<int>(row[table.column("frame")]);
     frame.time_s = row[table.column("time_s")];
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       const std::string prefix(name(part));
       if (part != BodyPart::head)
         frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]},
@@ -53,7 +53,7 @@ inline Spoiled spoiled(const Trajectory& truth, unsigned seed) {
     for (std::size_t i = at; i < std::min(n, at + length); ++i) result.swapped[i] = true;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       Point& point = result.points.frames[i][part];
       if (!point.present()) continue;
       const double y = normal(), x = normal();

@@ -50,7 +50,7 @@ CalibratedTrajectory demonstration(const Rollout& rollout, const osim::Model& mo
     for (std::size_t i = 0; i < kCoordinateNames.size(); ++i)
       sample.coordinates[i] = frame.state.q[i];
     const simulation::PlanarVector origin = frame.kinematics.bodies[pelvis].position;
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       const simulation::PlanarVector p =
           frame.kinematics.bodies[static_cast<std::size_t>(model.body(row(part).osim_body))]
               .position;

@@ -11,7 +11,7 @@ void estimate_covariance(const FitProblem& problem, StrideFit& fit) {
   ceres::Problem ceres;
   build(problem, fit, Loss::tukey, &ground_m, ceres);
   ceres::Problem::EvaluateOptions options;
-  std::vector<int> column;  // of `flattened` for every column of the Jacobian; −1: the ground
+  std::vector<int> column;  // of `flattened` for every column of the Jacobian; −1: none
   int offset = 0;
   for_each_block(fit.runner, [&](auto& block) {
     if (!ceres.IsParameterBlockConstant(block.data())) {
@@ -24,6 +24,10 @@ void estimate_covariance(const FitProblem& problem, StrideFit& fit) {
   if (!problem.stance.phases.empty()) {
     options.parameter_blocks.push_back(&ground_m);
     column.push_back(-1);
+  }
+  if (fit.heels_seen) {
+    options.parameter_blocks.push_back(fit.heel.data());
+    column.insert(column.end(), heel::size, -1);
   }
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) options.parameter_blocks.push_back(pelvis.data());
   ceres::CRSMatrix jacobian;

@@ -4,7 +4,7 @@
 
 namespace stride::fit {
 
-Marks observe(const Trajectory& trajectory, bool to_left) {
+Marks observe(const Trajectory& trajectory, bool to_left, Heels heels) {
   constexpr double kLeastWeight = 0.05;
   Marks all;
   all.to_left = to_left;
@@ -27,6 +27,10 @@ Marks observe(const Trajectory& trajectory, bool to_left) {
            .z_px = {to_left ? -from_center.x() : from_center.x(), -from_center.y()},
            .weight = std::clamp(point.confidence, kLeastWeight, 1.0)});
     }
+  }
+  if (heels == Heels::left_out || !all.sees_toes() || !all.sees_heels()) {
+    std::erase_if(all.points, [](const Mark& mark) { return is_heel(mark.part); });
+    all.count[index(BodyPart::heel_r)] = all.count[index(BodyPart::heel_l)] = 0;
   }
   return all;
 }

@@ -25,9 +25,13 @@ struct Marks {
   int count[kBodyPartCount] = {};  // number of points of a part
 
   bool sees(BodyPart part) const { return count[index(part)] * 4 >= static_cast<int>(u_s.size()); }
+  bool sees_toes() const { return sees(BodyPart::toe_r) || sees(BodyPart::toe_l); }
+  bool sees_heels() const { return sees(BodyPart::heel_r) || sees(BodyPart::heel_l); }
 };
 
-Marks observe(const Trajectory& trajectory, bool to_left);
+/// Heels are left out where the toes are not seen, since alone they do not tell the foot's angle.
+enum class Heels { beside_toes, left_out };
+Marks observe(const Trajectory& trajectory, bool to_left, Heels heels = Heels::beside_toes);
 
 /// A point as Mark::z_px in pixels of the frame.
 Eigen::Vector2d image_px(const Trajectory& trajectory, bool to_left, const Eigen::Vector2d& z_px);

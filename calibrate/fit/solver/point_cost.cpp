@@ -16,9 +16,12 @@ enum Inner {
   kLeg = kTilt + 1,
   kPhase = kLeg + 3,
   kPelvis = kPhase + 1,
-  kInner = kPelvis + 2
+  kHeel = kPelvis + 2
 };
-using Jet = ceres::Jet<double, kInner>;
+template <typename Residual>
+inline constexpr bool kOfHeel = std::is_same_v<Residual, HeelResidual>;
+template <typename Residual>
+using JetOf = ceres::Jet<double, kHeel + (kOfHeel<Residual> ? heel::size : 0)>;
 
 /// cos and sin of every harmonic at a phase: derivatives of a series by its coefficients.
 struct Basis {
@@ -44,7 +47,7 @@ struct Basis {
 };
 
 /// n Jets that stand for the variables from `first` on.
-template <int n>
+template <typename Jet, int n>
 std::array<Jet, n> variables(const double* values, int first) {
   std::array<Jet, n> jets;
   for (int i = 0; i < n; ++i) jets[i] = Jet(values[i], first + i);
@@ -53,15 +56,23 @@ std::array<Jet, n> variables(const double* values, int first) {
 
 }  // namespace
 
-bool PointCost::Evaluate(double const* const* parameters, double* residuals,
-                         double** jacobians) const {
+template <typename Residual>
+bool CostByChainRule<Residual>::Evaluate(double const* const* parameters, double* residuals,
+                                         double** jacobians) const {
+  using Jet = JetOf<Residual>;
   const auto [camera, cadence, body, sides, tilt, hip, knee, ankle, asymmetry, pelvis] =
       std::array<const double*, 10>{parameters[0], parameters[1], parameters[2], parameters[3],
                                     parameters[4], parameters[5], parameters[6], parameters[7],
                                     parameters[8], parameters[9]};
-  if (jacobians == nullptr)
-    return residual_(camera, cadence, body, sides, tilt, hip, knee, ankle, asymmetry, pelvis,
-                     residuals);
+  const double* heel = kOfHeel<Residual> ? parameters[10] : nullptr;
+  if (jacobians == nullptr) {
+    if constexpr (kOfHeel<Residual>)
+      return residual_(camera, cadence, body, sides, tilt, hip, knee, ankle, asymmetry, pelvis,
+                       heel, residuals);
+    else
+      return residual_(camera, cadence, body, sides, tilt, hip, knee, ankle, asymmetry, pelvis,
+                       residuals);
+  }
 
   constexpr std::array asymmetry_at{asymmetry::hip, asymmetry::knee, asymmetry::ankle};
   const int harmonics = residual_.harmonics, side = side_of(residual_.part) < 0 ? -1 : 1;
@@ -76,19 +87,26 @@ bool PointCost::Evaluate(double const* const* parameters, double* residuals,
     slopes[j] = own.series_slope(curves[j], harmonics) +
                 half * own.series_slope(difference, kAsymmetryHarmonics);
   }
-  const auto leg = variables<3>(angles.data(), kLeg);
+  const auto leg = variables<Jet, 3>(angles.data(), kLeg);
   std::array<Jet, 2> r;
-  residual_.at_pose(
-      variables<camera::size>(camera, kCamera).data(), variables<body::size>(body, kBody).data(),
-      variables<sides::size>(sides, kSides).data(), Jet(trunk.series(tilt, kTiltHarmonics), kTilt),
-      LegAngles<Jet>{leg[0], leg[1], leg[2]}, Jet(phase, kPhase),
-      variables<2>(pelvis, kPelvis).data(), r.data());
+  const auto evaluate = [&](auto... on_foot) {
+    residual_.at_pose(variables<Jet, camera::size>(camera, kCamera).data(),
+                      variables<Jet, body::size>(body, kBody).data(),
+                      variables<Jet, sides::size>(sides, kSides).data(),
+                      Jet(trunk.series(tilt, kTiltHarmonics), kTilt),
+                      LegAngles<Jet>{leg[0], leg[1], leg[2]}, Jet(phase, kPhase),
+                      variables<Jet, 2>(pelvis, kPelvis).data(), on_foot..., r.data());
+  };
+  if constexpr (kOfHeel<Residual>)
+    evaluate(variables<Jet, heel::size>(heel, kHeel).data());
+  else
+    evaluate();
 
   for (int row = 0; row < 2; ++row) {
     residuals[row] = r[row].a;
     const auto& d = r[row].v;
     auto fill = [&, block = 0](auto derivative) mutable {  // in the order of the arguments
-      const int size = parameter_block_sizes()[block];
+      const int size = this->parameter_block_sizes()[block];
       double* jacobian = jacobians[block++];
       if (jacobian == nullptr) return;
       for (int k = 0; k < size; ++k) jacobian[row * size + k] = derivative(k);
@@ -108,8 +126,12 @@ bool PointCost::Evaluate(double const* const* parameters, double* residuals,
       return d[kLeg + k / asymmetry::knee] * half * own.value[k % asymmetry::knee];
     });
     fill([&](int k) { return d[kPelvis + k]; });
+    if constexpr (kOfHeel<Residual>) fill([&](int k) { return d[kHeel + k]; });
   }
   return true;
 }
+
+template class CostByChainRule<PointResidual>;
+template class CostByChainRule<HeelResidual>;
 
 }  // namespace stride::fit

@@ -67,6 +67,12 @@ void add_priors(const FitProblem& problem, StrideFit& fit, ceres::Problem& ceres
   std::ranges::fill(asymmetry, Prior{0, 3 * kDegree});
   add_prior(ceres, r.asymmetry, asymmetry);
 
+  if (fit.heels_seen) {
+    // The back of a shoe is 3 cm behind the model's calcn, and networks differ by as much.
+    const auto usual = usual_heel(problem);
+    add_prior(ceres, fit.heel,
+              {Prior{usual[heel::forward], 3 * cm}, Prior{usual[heel::up], 3 * cm}});
+  }
   if (const auto& measured = options.measured_scale) {
     // e^(s + ṡu) px per m at its moment
     ceres::Matrix at(1, camera::size);

@@ -28,6 +28,10 @@ void add_joint_limits(const FitProblem& problem, StrideFit& fit, ceres::Problem&
   if (fit.toes_seen) limit(fit.runner.ankle, problem.model.ankle);
 }
 
+/// Times the noise of other points. A network's heel is off as its ankle is: with the say of other
+/// points heels make knees and ankles worse.
+constexpr double kHeelNoise = 3;
+
 void add_marks(const FitProblem& problem, StrideFit& fit, Loss loss, ceres::Problem& ceres) {
   // Correlated points have less weight, but the loss scales each by its own noise.
   const double inflation = std::sqrt(fit.correlation), sigma = fit.sigma_px * inflation;
@@ -44,10 +48,17 @@ void add_marks(const FitProblem& problem, StrideFit& fit, Loss loss, ceres::Prob
                    pelvis);
       continue;
     }
-    ceres::CostFunction* cost = new PointCost(
-        {mark.part, problem.directions, fit.harmonics, mark.u_s, mark.z_px, mark_sigma});
-    ceres.AddResidualBlock(numeric ? numeric_derivatives_of(cost) : cost, robust(),
-                           PointResidual::DependsOn::of(fit.runner, pelvis));
+    const auto add = [&](ceres::CostFunction* cost, const std::vector<double*>& blocks) {
+      ceres.AddResidualBlock(numeric ? numeric_derivatives_of(cost) : cost, robust(), blocks);
+    };
+    if (is_heel(mark.part))
+      add(new HeelCost({mark.part, problem.directions, fit.harmonics, mark.u_s, mark.z_px,
+                        kHeelNoise * mark_sigma}),
+          HeelResidual::DependsOn::of(fit.runner, pelvis, fit.heel.data()));
+    else
+      add(new PointCost(
+              {mark.part, problem.directions, fit.harmonics, mark.u_s, mark.z_px, mark_sigma}),
+          PointResidual::DependsOn::of(fit.runner, pelvis));
   }
 }
 
@@ -85,12 +96,20 @@ double first_ground_m(const Runner& runner) {
   return -(runner.body[body::thigh] + runner.body[body::shank]);
 }
 
+std::array<double, heel::size> usual_heel(const FitProblem& problem) {
+  const SagittalModel& model = problem.model;
+  const Eigen::Vector2d p_m =
+      problem.options.leg_m.mean / (model.thigh_m() + model.shank_m()) * model.p_talus_heel_m;
+  return {p_m.x(), p_m.y()};
+}
+
 void build(const FitProblem& problem, StrideFit& fit, Loss loss, double* ground_m,
            ceres::Problem& ceres) {
   for_each_block(fit.runner, [&](auto& block) {
     ceres.AddParameterBlock(block.data(), static_cast<int>(block.size()));
   });
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) ceres.AddParameterBlock(pelvis.data(), 2);
+  if (fit.heels_seen) ceres.AddParameterBlock(fit.heel.data(), heel::size);
   add_marks(problem, fit, loss, ceres);
   add_priors(problem, fit, ceres);
   add_joint_limits(problem, fit, ceres);

@@ -2,6 +2,7 @@
 
 #include <ceres/problem.h>
 
+#include <array>
 #include <vector>
 
 #include "calibrate/fit/solver/stride_fit.h"
@@ -30,6 +31,9 @@ inline constexpr double kTukey = 4.685, kCauchy = 2.385;  // 95 % efficient unde
 /// A parameter beside the runner's: how far below the pelvis the ground is, m. It starts a leg's
 /// length below.
 double first_ground_m(const Runner& runner);
+
+/// Where a heel is expected on the foot, from the ankle, m: the model's on a foot of usual size.
+std::array<double, heel::size> usual_heel(const FitProblem& problem);
 
 /// The problem at the present state and noise of `fit`, of whose blocks it holds the addresses and
 /// that of `ground_m`: residuals, priors, bounds, and what is held fixed.

@@ -48,6 +48,45 @@ struct PointResidual {
   }
 };
 
+/// The same of a heel, whose place on the foot is unknown.
+struct HeelResidual {
+  using DependsOn = Blocks<2, Others<2, heel::size>, &Runner::camera, &Runner::cadence,
+                           &Runner::body, &Runner::sides, &Runner::tilt, &Runner::hip,
+                           &Runner::knee, &Runner::ankle, &Runner::asymmetry>;
+
+  BodyPart part;
+  Directions directions;
+  int harmonics;
+  double u_s;
+  Eigen::Vector2d z_px;
+  double sigma_px;
+
+  template <typename T>
+  bool operator()(const T* camera, const T* cadence, const T* body, const T* sides, const T* tilt,
+                  const T* hip, const T* knee, const T* ankle, const T* asymmetry,
+                  const T* pelvis_px, const T* heel, T* r) const {
+    const T phase = phase_at(cadence, u_s);
+    const auto leg =
+        leg_angles(hip, knee, ankle, asymmetry, harmonics, side_of(part) < 0 ? -1 : 1, phase);
+    at_pose(camera, body, sides, evaluate_series(tilt, kTiltHarmonics, phase), leg, phase,
+            pelvis_px, heel, r);
+    return true;
+  }
+
+  /// The same for given phase and angles.
+  template <typename T>
+  void at_pose(const T* camera, const T* body, const T* sides, const T& tilt,
+               const LegAngles<T>& leg, const T& phase, const T* pelvis_px, const T* heel,
+               T* r) const {
+    using std::exp;
+    const Vector2<T> q = place_heel(part, directions, body, sides, tilt, leg, phase, heel);
+    const T scale = exp(camera[camera::log_px_per_m] + camera[camera::drift_per_s] * u_s);
+    const Vector2<T> offset = scale * turned(camera[camera::roll], q);
+    r[0] = (pelvis_px[0] + offset.x() - z_px.x()) / sigma_px;
+    r[1] = (pelvis_px[1] + offset.y() - z_px.y()) / sigma_px;
+  }
+};
+
 /// The marked pelvis itself: r = (p − z) / σ.
 struct PelvisResidual {
   using DependsOn = Blocks<2, Others<2>>;

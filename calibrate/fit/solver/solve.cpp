@@ -11,6 +11,7 @@ Solution solve(const FitProblem& problem, StrideFit& fit, Loss loss, double tole
   auto* order = new ceres::ParameterBlockOrdering;
   for (Eigen::Vector2d& pelvis : fit.pelvis_px) order->AddElementToGroup(pelvis.data(), 0);
   for_each_block(fit.runner, [&](auto& block) { order->AddElementToGroup(block.data(), 1); });
+  if (fit.heels_seen) order->AddElementToGroup(fit.heel.data(), 1);
   if (!problem.stance.phases.empty()) order->AddElementToGroup(&ground_m, 1);
   ceres::Solver::Options options;
   options.linear_solver_ordering.reset(order);

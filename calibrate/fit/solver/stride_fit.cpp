@@ -27,9 +27,11 @@ Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directio
   const double phase = phase_at(r.cadence.data(), u_s);
   const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
                               fit.harmonics, side_of(part) < 0 ? -1 : 1, phase);
+  const double tilt = evaluate_series(r.tilt.data(), kTiltHarmonics, phase);
   const Eigen::Vector2d q =
-      place_part(part, directions, r.body.data(), r.sides.data(),
-                 evaluate_series(r.tilt.data(), kTiltHarmonics, phase), leg, phase);
+      is_heel(part) ? place_heel(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase,
+                                 fit.heel.data())
+                    : place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase);
   const double scale =
       std::exp(r.camera[camera::log_px_per_m] + r.camera[camera::drift_per_s] * u_s);
   return scale * turned(r.camera[camera::roll], q);
@@ -46,6 +48,7 @@ Eigen::VectorXd propagated_sd(const StrideFit& fit,
   StrideFit moved;
   moved.harmonics = fit.harmonics;
   moved.vertical_oscillation = fit.vertical_oscillation;
+  moved.heel = fit.heel;
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(values(fit).size(), at.size());
   for (Eigen::Index k = 0; k < at.size(); ++k) {
     const double sd = std::sqrt(fit.covariance(k, k));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -63,7 +64,8 @@ struct StrideFit {
   std::string failure;
   Runner runner;
   int harmonics = 0;
-  bool toes_seen = false, head_seen = false;
+  bool toes_seen = false, head_seen = false, heels_seen = false;
+  std::array<double, heel::size> heel{};   // where the seen heels are
   bool backward = false;                   // knees bend forward: the clip is mirrored
   std::vector<Eigen::Vector2d> pelvis_px;  // of every frame
   VerticalOscillation vertical_oscillation;

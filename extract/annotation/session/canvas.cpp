@@ -112,10 +112,14 @@ void AnnotationCanvas::draw_ghosts() {
     draw_ring(canvas_, p, 7, colour(part));
     draw_ring(canvas_, p, 3, confidence_colour(point.confidence), 2);
   }
-  for (const auto& [a, b] : kBones)
+  const auto line = [&](const Bone& bone) {
+    const auto& [a, b] = bone;
     if ((*now)[a].present() && (*now)[b].present() && !(is_placed(a) && is_placed(b)))
       draw_line(canvas_, s_.view_.to_canvas((*now)[a].p_px), s_.view_.to_canvas((*now)[b].p_px),
                 colour(b) * 0.7);
+  };
+  std::ranges::for_each(kBones, line);
+  std::ranges::for_each(kSoles, line);
 }
 
 void AnnotationCanvas::draw_clicks() {

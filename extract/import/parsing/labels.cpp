@@ -120,24 +120,26 @@ std::vector<std::string> layout_of(std::size_t points) {
                "knee_r", "ankle_r", "hip_l", "knee_l", "ankle_l", "", "", "ear_r", "ear_l"};
       break;
     case 25:
-      names = {"nose",  "",         "",        "",      "",         "",        "", "", "midhip",
-               "hip_r", "knee_r",   "ankle_r", "hip_l", "knee_l",   "ankle_l", "", "", "ear_r",
-               "ear_l", "bigtoe_l", "",        "",      "bigtoe_r", "",        ""};
+      names = {"nose",    "",         "",      "",       "",        "",         "",
+               "",        "midhip",   "hip_r", "knee_r", "ankle_r", "hip_l",    "knee_l",
+               "ankle_l", "",         "",      "ear_r",  "ear_l",   "bigtoe_l", "",
+               "heel_l",  "bigtoe_r", "",      "heel_r"};
       break;
     case 26:
     case 136:
       names = coco;
-      names.insert(names.end(), {"", "", "midhip", "bigtoe_l", "bigtoe_r"});
+      names.insert(names.end(),
+                   {"", "", "midhip", "bigtoe_l", "bigtoe_r", "", "", "heel_l", "heel_r"});
       break;
     case 33:
       names = {"nose", "", "", "", "", "", "", "ear_l", "ear_r"};
       names.resize(23);
-      names.insert(names.end(), {"hip_l", "hip_r", "knee_l", "knee_r", "ankle_l", "ankle_r", "", "",
-                                 "toe_l", "toe_r"});
+      names.insert(names.end(), {"hip_l", "hip_r", "knee_l", "knee_r", "ankle_l", "ankle_r",
+                                 "heel_l", "heel_r", "toe_l", "toe_r"});
       break;
     case 133:
       names = coco;
-      names.insert(names.end(), {"bigtoe_l", "", "", "bigtoe_r"});
+      names.insert(names.end(), {"bigtoe_l", "", "heel_l", "bigtoe_r", "", "heel_r"});
       break;
     default:
       return {};

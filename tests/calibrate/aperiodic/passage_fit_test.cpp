@@ -27,7 +27,7 @@ Trajectory observed(const Clip& clip, double noise_px, unsigned seed = 1) {
   Random random(seed);
   for (std::size_t i = 0; i < points.frames.size(); ++i) {
     TrajectoryFrame& frame = points.frames[i];
-    for (const BodyPart part : kBodyParts)
+    for (const BodyPart part : kAskedParts)
       frame[part].p_px += Eigen::Vector2d(noise_px * normal(random), noise_px * normal(random));
     frame[BodyPart::hip_r] = frame[BodyPart::hip_l] = {};
     if (i == 0) continue;

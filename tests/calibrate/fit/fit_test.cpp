@@ -74,6 +74,32 @@ TEST(Fit, RecoversEverythingFromMarksWithoutNoise) {
   EXPECT_LT(fit.rms_px, 1e-4);
 }
 
+TEST(Fit, FindsWhereTheHeelsAreOnTheFeet) {
+  const SagittalModel model = default_sagittal_model();
+  SyntheticClip clip;
+  clip.heels = true;
+  const fit::StrideFit fit = fit_clip(clip, model);
+  ASSERT_TRUE(fit.ok) << fit.failure;
+  EXPECT_TRUE(fit.heels_seen);
+  EXPECT_NEAR(fit.heel[heel::forward], -0.07, 1e-4);
+  EXPECT_NEAR(fit.heel[heel::up], -0.06, 1e-4);
+  EXPECT_LT(largest_difference(fit, fit_clip({}, model), model), 1e-4);
+  EXPECT_TRUE(gait::pose_at(fit, model, 0.3)[BodyPart::heel_l].allFinite());
+}
+
+TEST(Fit, IsTheSameWithoutHeels) {
+  const SagittalModel model = default_sagittal_model();
+  SyntheticClip clip;
+  clip.heels = true;
+  clip.toes = false;
+  const fit::StrideFit fit = fit_clip(clip, model);
+  ASSERT_TRUE(fit.ok) << fit.failure;
+  EXPECT_FALSE(fit.heels_seen);  // nor used: without toes they do not tell the foot's angle
+  clip.heels = false;
+  EXPECT_EQ(largest_difference(fit, fit_clip(clip, model), model), 0);
+  EXPECT_FALSE(gait::pose_at(fit, model, 0.3)[BodyPart::heel_l].allFinite());
+}
+
 TEST(Fit, TenPercentGrossOutliersMoveNothingByAMillimetre) {
   const SagittalModel model = default_sagittal_model();
   const fit::StrideFit clean = fit_clip({}, model);

@@ -38,7 +38,7 @@ TEST(AnnotationDocument, TakesBackAndMakesAgainWithoutLimit) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 300; ++i) {
     annotation::Change change =
-        click(static_cast<int>(random() % 20), kBodyParts[random() % 10], i);
+        click(static_cast<int>(random() % 20), kBodyParts[random() % kBodyPartCount], i);
     if (i % 7 == 0) change.clicks[0].click.reset();
     if (i % 11 == 0) {
       change.settings = annotation::settings_of(document.keypoints());

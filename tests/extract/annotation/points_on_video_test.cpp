@@ -25,7 +25,7 @@ imports::Detections truth() {
   for (const auto& row : table.rows) {
     imports::ImportedFrame& frame = detections.frames.emplace_back();
     frame.frame = static_cast<int>(row[table.column("frame")]);
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       const std::string prefix(name(part));
       frame[part] = {{row[table.column(prefix + "_x")], row[table.column(prefix + "_y")]},
                      Source::detected,
@@ -64,7 +64,7 @@ double farthest_px(const Trajectory& marks) {
   double farthest = 0;
   const imports::Detections right = truth();
   for (std::size_t i = 0; i < marks.frames.size(); ++i)
-    for (const BodyPart part : kBodyParts)
+    for (const BodyPart part : kAskedParts)
       farthest =
           std::max(farthest, (marks.frames[i][part].p_px - right.frames[i][part].p_px).norm());
   return farthest;

@@ -37,7 +37,7 @@ TEST(Import, FindsInEveryLayoutTheParts) {
   for (const std::size_t points : {25, 26, 33, 133, 136})
     EXPECT_THAT(missing_in(points), IsEmpty()) << points;
   for (const std::size_t points : {15, 17, 18})
-    EXPECT_THAT(missing_in(points), ElementsAre(toe_r, toe_l)) << points;
+    EXPECT_THAT(missing_in(points), ElementsAre(toe_r, toe_l, heel_r, heel_l)) << points;
 }
 
 TEST(Import, ReadsAFolderOfOpenPose) {

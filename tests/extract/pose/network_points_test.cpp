@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 
 #include "extract/pose/blazepose.h"
 #include "extract/pose/weights.h"
@@ -36,6 +37,21 @@ TEST(NetworkPoints, AreAbsentOutsideThePicture) {
   EXPECT_FALSE(frame[BodyPart::hip_l].present());
   EXPECT_TRUE(frame[BodyPart::ankle_r].present());
   EXPECT_EQ(frame[BodyPart::pelvis].p_px, Vector2d(5, 50));
+}
+
+TEST(NetworkPoints, AreOfEveryPartButTheHips) {
+  Body body = body_at({100, 50}, 0.9);
+  for (std::size_t k = 0; k < body.landmarks.size(); ++k)
+    body.landmarks[k].p_px.y() = static_cast<double>(k);
+  const imports::ImportedFrame frame = points_of(body, 0, {200, 120});
+  std::set<double> places;
+  for (const BodyPart part : kBodyParts) {
+    const bool is_hip = part == BodyPart::hip_r || part == BodyPart::hip_l;
+    EXPECT_EQ(frame[part].present(), !is_hip) << name(part);
+    if (!is_hip) EXPECT_TRUE(places.insert(frame[part].p_px.y()).second) << name(part);
+  }
+  EXPECT_EQ(frame[BodyPart::heel_r].p_px.y(), 30);
+  EXPECT_EQ(frame[BodyPart::heel_l].p_px.y(), 29);
 }
 
 TEST(NetworkPoints, HaveNoLegsWhereOneMayBeBeyondTheSideOfThePicture) {

@@ -36,13 +36,14 @@ TEST(BodyPart, EachHasAnIndexOfItsOwnInBody25) {
   EXPECT_LT(*indices.rbegin(), 25);
 }
 
-TEST(BodyPart, BonesLeadFromThePelvisToTheToes) {
+TEST(BodyPart, BonesLeadFromThePelvisToToesAndHeels) {
   std::vector<std::pair<BodyPart, BodyPart>> bones;
   for (const auto& [from, to] : kBones) bones.emplace_back(from, to);
   using enum BodyPart;
   EXPECT_THAT(bones, ElementsAre(std::pair(pelvis, knee_r), std::pair(knee_r, ankle_r),
                                  std::pair(ankle_r, toe_r), std::pair(pelvis, knee_l),
-                                 std::pair(knee_l, ankle_l), std::pair(ankle_l, toe_l)));
+                                 std::pair(knee_l, ankle_l), std::pair(ankle_l, toe_l),
+                                 std::pair(ankle_r, heel_r), std::pair(ankle_l, heel_l)));
 }
 
 }  // namespace

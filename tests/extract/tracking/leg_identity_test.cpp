@@ -22,6 +22,15 @@ bool says_swapped(const tracking::LegIdentity& legs, int frame) {
   });
 }
 
+TEST(LegIdentity, ExchangesEveryPartOfTheLegs) {
+  TrajectoryFrame frame;
+  for (const BodyPart part : kBodyParts)
+    frame[part] = {{1.0 * index(part), 0}, Source::detected, 1};
+  tracking::swap_legs(frame);
+  for (const BodyPart part : kBodyParts)
+    EXPECT_EQ(frame[part].p_px.x(), index(mirrored(part))) << name(part);
+}
+
 TEST(LegIdentity, RepairsInjectedSwaps) {
   const Trajectory truth = human();
   int right = 0, frames = 0;
@@ -36,7 +45,7 @@ TEST(LegIdentity, RepairsARunToTheLeftWithFewPartsAtHalfTheRate) {
   Trajectory truth = human();
   std::erase_if(truth.frames, [](const TrajectoryFrame& frame) { return frame.frame % 2 == 1; });
   for (TrajectoryFrame& frame : truth.frames)
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       frame[part].p_px.x() = 639 - frame[part].p_px.x();
       if (std::ranges::find(kRequiredParts, part) == kRequiredParts.end()) frame[part] = Point();
     }
@@ -54,7 +63,7 @@ Trajectory clicks_of(const char* clip, int spacing) {
   std::erase_if(points.frames, [&](const TrajectoryFrame& f) { return f.frame % spacing != 1; });
   Random random(7);
   for (TrajectoryFrame& frame : points.frames)
-    for (const BodyPart part : kBodyParts) {
+    for (const BodyPart part : kAskedParts) {
       if (part == BodyPart::hip_r || part == BodyPart::hip_l) frame[part] = Point();
       const double x = normal(random), y = normal(random);
       frame[part].p_px += 1.5 * Eigen::Vector2d(x, y);

@@ -52,11 +52,16 @@ TEST(Residuals, HaveTheDerivativesOfFiniteDifferences) {
   const Directions directions(model);
   for (const BodyPart part : kBodyParts) {
     if (part == BodyPart::pelvis) continue;
-    const fit::PointResidual residual{part, directions, 4, 0.37, {20, -60}, 1.7};
-    const std::vector<const double*> blocks{
+    std::vector<const double*> blocks{
         r.camera.data(), r.cadence.data(), r.body.data(),  r.sides.data(),     r.tilt.data(),
         r.hip.data(),    r.knee.data(),    r.ankle.data(), r.asymmetry.data(), pelvis};
-    check(fit::PointCost(residual), blocks);
+    if (is_heel(part)) {
+      const double heel[2] = {-0.06, -0.05};
+      blocks.push_back(heel);
+      check(fit::HeelCost({part, directions, 4, 0.37, {20, -60}, 1.7}), blocks);
+    } else {
+      check(fit::PointCost({part, directions, 4, 0.37, {20, -60}, 1.7}), blocks);
+    }
   }
   check(fit::AutomaticCost<fit::PelvisResidual>(new fit::PelvisResidual{{1, 2}, 1.5}), {pelvis});
   check(fit::AutomaticCost<fit::LegLengthResidual>(new fit::LegLengthResidual{0.85, 0.05}),
