@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <numeric>
 
 #include "calibrate/commands.h"
@@ -32,6 +33,19 @@ std::size_t edits(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+/// Names in it may hold anything: what would command the terminal is shown, not sent.
+std::string shown(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
+      safe += fmt::format("\\x{:02x}", code);
+    else
+      safe += c;
+  }
+  return safe;
+}
+
 /// What is wrong with the command line, and where to read on.
 int explain(const CLI::App& app, int argc, char** argv, const CLI::ParseError& e) {
   const std::string command = argc > 1 ? argv[1] : "";
@@ -43,12 +57,12 @@ int explain(const CLI::App& app, int argc, char** argv, const CLI::ParseError& e
       nearest = each->get_name();
   }
   if (known)
-    fmt::print(stderr, "error: {}\nsee: stride {} --help\n", e.what(), command);
+    fmt::print(stderr, "error: {}\nsee: stride {} --help\n", shown(e.what()), command);
   else if (command.starts_with('-'))
-    fmt::print(stderr, "error: {}\nsee: stride --help\n", e.what());
+    fmt::print(stderr, "error: {}\nsee: stride --help\n", shown(e.what()));
   else
     fmt::print(stderr, "error: '{}' is no command; did you mean stride {}? see: stride --help\n",
-               command, nearest);
+               shown(command), nearest);
   return 2;
 }
 
@@ -74,8 +88,11 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& e) {
     return e.get_exit_code() == 0 ? app.exit(e) : explain(app, argc, argv, e);
+  } catch (const std::filesystem::filesystem_error& e) {
+    fmt::print(stderr, "error: {}: {}\n", shown(e.path1().string()), e.code().message());
+    return 1;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    fmt::print(stderr, "error: {}\n", shown(e.what()));
     return 1;
   }
 }

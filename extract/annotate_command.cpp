@@ -248,7 +248,11 @@ void run(AnnotateRequest request) {
   video::FrameStore frames(request.video);
   const fs::path file =
       request.keypoints.empty() ? keypoints_file_of(request.video) : request.keypoints;
-  annotation::AnnotationJournal journal(file, fresh_keypoints(request.video, frames.info()));
+  const Keypoints fresh = fresh_keypoints(request.video, frames.info());
+  if (fs::exists(file))
+    if (const Keypoints old = load_keypoints(file); old.video_sha256 == fresh.video_sha256)
+      tracking::check_picture(old, fresh.width_px, fresh.height_px, file);
+  annotation::AnnotationJournal journal(file, fresh);
   if (journal.recovered() > 0)
     fmt::print(stderr, "{}: recovered {} edits that a killed window had left\n", file.string(),
                journal.recovered());
@@ -314,7 +318,10 @@ void add_annotate_command(CLI::App& app) {
   command.add_flag("!--no-leg-repair", request->repair_legs,
                    "leave right and left of imported points as they are");
   command.add_flag("--keys", request->keys, "print the table of keys and leave");
-  command.callback([request] { run(*request); });
+  command.callback([request, &command] {
+    require_effect(command, request->import_from, request->pose);
+    run(*request);
+  });
 }
 
 }  // namespace stride

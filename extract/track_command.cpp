@@ -153,6 +153,7 @@ fs::path trajectory_file(const TrackRequest& request) {
 }
 
 void check_files(const TrackRequest& request) {
+  if (!request.export_to.empty()) imports::check_export(request.export_to);
   check_outputs({request.video, request.keypoints, keypoints_file_of(request.video),
                  request.import_from, request.prior, request.score, request.pose.model},
                 {{"-o", trajectory_file(request), FileKind::trajectory},
@@ -161,11 +162,11 @@ void check_files(const TrackRequest& request) {
 }
 
 void run(TrackRequest request) {
-  check_files(request);
   if (!request.score.empty()) {
     fmt::print("{}", tracking::table_of(tracking::score_tracking(request.video, request.score)));
     return;
   }
+  check_files(request);
   if (!request.movement.empty() && !movement(request.movement, "--movement").repeats)
     request.repair_legs = false;  // which looks for legs in turn
   tracking::LabelledClip labelled =
@@ -243,7 +244,16 @@ void add_track_command(CLI::App& app) {
   command.add_flag("!--no-flow", request->track.flow, "do not look at the picture between clicks");
   command.add_option("--score", request->score,
                      "a CSV of true points: track from clicks made of it, print the accuracy");
-  command.callback([request] { run(*request); });
+  command.callback([request, &command] {
+    require_effect(command, request->import_from, request->pose);
+    for (const char* option : {"--export", "--overlay", "--import", "--pose", "--prior"})
+      require(request->score.empty() || command.count(option) == 0,
+              "{}: has no effect with --score, which prints the accuracy of clicks", option);
+    require(request->import_from.empty() || request->keypoints.empty(),
+            "--import {} and --keypoints {}: give one of them", request->import_from.string(),
+            request->keypoints.string());
+    run(*request);
+  });
 }
 
 }  // namespace stride

@@ -123,7 +123,8 @@ def names(folder, all_names):
             works(home, [], "info", f"./{at}{file}")
         works(home, [f"out/{at}{e}" for e in (".trajectory.csv", ".calibrated.csv", ".report.txt", ".report.svg",
                                               ".potential.json", ".converted.json")], "convert", v, "-o", "out")
-        works(home, [f"{at}.html"], "report", f"./{at}.trajectory.csv", "--video", v, "-o", f"./{at}.html")
+        works(home, [f"{at}.html"], "report", f"./{at}.trajectory.csv")
+        refuses(home, "an input", f"./{at}.trajectory.csv", "report", f"./{at}.trajectory.csv", "-o", f"./{at}.trajectory.csv")
         run = f"run {at}"
         status, said = stride(home, "train", "--preset", "demo", "--potential", f"out/{at}.potential.json", "--out", run,
                               "--decisions", "40")

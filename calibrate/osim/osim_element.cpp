@@ -6,6 +6,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 
 namespace stride::osim {
 namespace {
@@ -42,6 +43,9 @@ constexpr std::string_view kWithoutEffect[] = {"Appearance",
 
 OsimDocument::OsimDocument(const std::filesystem::path& path)
     : file(path.string()), text(read_file(path)) {
+  const FileKind kind = kind_of(path);
+  require(!is_binary(kind) && !is_json(kind), "{}: is {}, an OpenSim model (.osim) is needed", file,
+          name(kind));
   const pugi::xml_parse_result result = tree.load_buffer(text.data(), text.size());
   require(static_cast<bool>(result), "{}:{}: not XML: {}", file, line_at(text, result.offset),
           result.description());

@@ -6,6 +6,7 @@
 
 #include "calibrate/gait/human_running.h"
 #include "calibrate/osim/storage.h"
+#include "extract/io/csv.h"
 #include "extract/io/file.h"
 #include "extract/skeleton/units.h"
 
@@ -123,7 +124,7 @@ std::string passage_text(const Trajectory& trajectory, const SagittalModel& mode
 std::string report_text(const Trajectory& trajectory, const SagittalModel& model,
                         const Calibration& c) {
   std::string text =
-      fmt::format("clip      {}\nverdict   {}\n", trajectory.video, c.verdict.text());
+      fmt::format("clip      {}\nverdict   {}\n", one_line(trajectory.video), c.verdict.text());
   if (c.aperiodic) return text + passage_text(trajectory, model, c);
   if (!c.fit.ok) return text;
   const Runner& r = c.fit.runner;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "extract/skeleton/keypoints.h"
 #include "extract/tracking/track.h"
 
 namespace stride::tracking {
@@ -18,6 +19,10 @@ struct LabelledClip {
 /// such video, where it was not clicked, or where it is not the one that was clicked.
 LabelledClip clicks_on(const std::filesystem::path& video,
                        const std::filesystem::path& keypoints_file, double slow_motion);
+
+/// Throws Error, beginning with `file`, unless the clicks lie on a picture of this size, px.
+void check_picture(const Keypoints& keypoints, int width_px, int height_px,
+                   const std::filesystem::path& file);
 
 /// Tracks the labelled points through their video, which is decoded once.
 Tracked track(const std::filesystem::path& video, const LabelledClip& labelled,

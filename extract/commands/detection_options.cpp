@@ -1,6 +1,7 @@
 #include "extract/commands/detection_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "extract/io/error.h"
 #include "extract/io/option_range.h"
@@ -77,12 +78,28 @@ void add_pose_options(CLI::App& command, pose::PoseOptions& options) {
       .add_option_function<std::vector<double>>(
           "--pose-box",
           [&options](const std::vector<double>& box) {
+            for (const double each : box)
+              require(std::abs(each) <= 1e5, "--pose-box: {}: must be a number of px", each);
             require(box[2] > 0 && box[3] > 0, "--pose-box {} {} {} {}: must have a size", box[0],
                     box[1], box[2], box[3]);
             options.box_px = cv::Rect2d(box[0], box[1], box[2], box[3]);
           },
           "where the person is on the first frame, px: X Y WIDTH HEIGHT (default: whole frames)")
       ->expected(4);
+}
+
+void require_effect(const CLI::App& command, const std::filesystem::path& import_from,
+                    const pose::PoseOptions& pose) {
+  const auto require_all = [&](std::initializer_list<const char*> options, bool effect,
+                               const char* with) {
+    for (const char* option : options)
+      require(effect || command.count(option) == 0, "{}: has no effect without {}", option, with);
+  };
+  require_all({"--format", "--y-up", "--import-rate", "--points-size", "--first-frame"},
+              !import_from.empty(), "--import");
+  require_all({"--labels", "--min-confidence"}, !import_from.empty() || pose.is_users(),
+              "--import, or --pose MODEL.onnx");
+  require_all({"--pose-config", "--pose-box"}, pose.is_users(), "--pose MODEL.onnx");
 }
 
 }  // namespace stride

@@ -146,7 +146,9 @@ const std::vector<std::string>& export_formats() {
   return formats;
 }
 
-void export_points(const Trajectory& trajectory, const fs::path& to, const std::string& format) {
+namespace {
+
+Writer writer_of(const fs::path& to, const std::string& format) {
   std::string wanted = format;
   if (wanted.empty()) {
     const std::string extension = to.extension().string();
@@ -156,7 +158,15 @@ void export_points(const Trajectory& trajectory, const fs::path& to, const std::
       std::ranges::find(writers(), wanted, [](const auto& entry) { return entry.first; });
   require(writer != writers().end(), "{}: format '{}' cannot be written; use one of {}",
           to.string(), wanted, fmt::join(export_formats(), ", "));
-  writer->second(trajectory, to);
+  return writer->second;
+}
+
+}  // namespace
+
+void check_export(const fs::path& to, const std::string& format) { writer_of(to, format); }
+
+void export_points(const Trajectory& trajectory, const fs::path& to, const std::string& format) {
+  writer_of(to, format)(trajectory, to);
 }
 
 }  // namespace stride::imports

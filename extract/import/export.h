@@ -21,6 +21,9 @@ namespace stride::imports {
 void export_points(const Trajectory& trajectory, const std::filesystem::path& to,
                    const std::string& format = "");
 
+/// Throws Error as export_points() would for the name, before anything is done.
+void check_export(const std::filesystem::path& to, const std::string& format = "");
+
 const std::vector<std::string>& export_formats();
 
 }  // namespace stride::imports

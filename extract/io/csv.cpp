@@ -1,5 +1,6 @@
 #include "extract/io/csv.h"
 
+#include <fmt/format.h>
 #include <iconv.h>
 
 #include <algorithm>
@@ -134,6 +135,59 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
         if (has_decimal_comma(cell)) std::ranges::replace(cell, ',', '.');
   if (!is_told) drop_padding(table.lines);
   return table;
+}
+
+std::string one_line(std::string_view text) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  const bool reads_back = std::ranges::none_of(text, is_control) && trimmed(text) == text &&
+                          !text.starts_with('"') && !text.ends_with(',') && !text.ends_with(';');
+  if (reads_back) return std::string(text);
+  std::string written = "\"";
+  for (const char c : text) {
+    if (c == '\n')
+      written += "\\n";
+    else if (c == '\t')
+      written += "\\t";
+    else if (c == '"' || c == '\\')
+      written += {'\\', c};
+    else if (is_control(static_cast<unsigned char>(c)))
+      written += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      written += c;
+  }
+  return written + '"';
+}
+
+std::string from_one_line(std::string_view written) {
+  const std::string as_it_is(written);
+  if (written.size() < 2 || !written.starts_with('"') || !written.ends_with('"')) return as_it_is;
+  std::string text;
+  for (std::string_view rest = written.substr(1, written.size() - 2); !rest.empty();) {
+    const char c = rest.front();
+    rest.remove_prefix(1);
+    if (c == '"') return as_it_is;
+    if (c != '\\') {
+      text += c;
+      continue;
+    }
+    if (rest.empty()) return as_it_is;
+    const char escaped = rest.front();
+    rest.remove_prefix(1);
+    if (escaped == 'n' || escaped == 't') {
+      text += escaped == 'n' ? '\n' : '\t';
+    } else if (escaped == '"' || escaped == '\\') {
+      text += escaped;
+    } else if (escaped == 'x' && rest.size() >= 2) {
+      unsigned char code = 0;
+      const auto [end, error] = std::from_chars(rest.data(), rest.data() + 2, code, 16);
+      if (error != std::errc() || end != rest.data() + 2) return as_it_is;
+      text += static_cast<char>(code);
+      rest.remove_prefix(2);
+    } else {
+      return as_it_is;
+    }
+  }
+  return text;
 }
 
 std::string place_of_byte(std::string_view text, std::size_t byte) {

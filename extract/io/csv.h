@@ -30,6 +30,13 @@ TextTable read_text_table(std::string_view content, const std::string& file, cha
 /// The text in UTF-8 without a byte order mark, lines ending in LF.
 std::string decoded_text(std::string_view content, const std::string& file);
 
+/// A text as the metadata of a table hold it, `# key: text`: as it is or, where that would not read
+/// back as the same from one line (line breaks, blanks at an end, …), in double quotes with \n, \t,
+/// \", \\ and \xHH.
+std::string one_line(std::string_view text);
+/// The text that one_line() was given; anything else as it is.
+std::string from_one_line(std::string_view written);
+
 /// "line 3, column 5", both from 1: where a byte is, for a message about a text of any kind.
 std::string place_of_byte(std::string_view text, std::size_t byte);
 

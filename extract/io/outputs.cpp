@@ -65,11 +65,24 @@ bool is_transport_stream(std::string_view head) {
   return false;
 }
 
+/// Weights of an agent or a network, which have no signature at their very beginning.
+FileKind kind_of_weights(std::string_view head) {
+  if (head.size() < 10) return FileKind::binary;
+  if (head.substr(4, 4) == "TFL3") return FileKind::tflite;
+  if (head.substr(4, 4) == "\0\0\0\0"sv && head.substr(8, 2) == "{\"") return FileKind::safetensors;
+  // ir_version, then the producer's name, the graph or the operators' version.
+  if (head[0] == '\x08' && head[1] > 0 && head[1] < 0x20 &&
+      (head[2] == '\x12' || head[2] == '\x3a' || head[2] == '\x42'))
+    return FileKind::onnx;
+  return FileKind::binary;
+}
+
 FileKind kind_of_text(std::string_view head) {
   const auto has = [&](std::string_view text) { return head.find(text) != head.npos; };
   const auto start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF"sv);
   const char first = start == head.npos ? ' ' : head[start];
   if (first == '<') {
+    if (has("content=\"stride\"") && has("<!DOCTYPE html>")) return FileKind::page;
     if (has("<svg")) return FileKind::svg;
     return has("<KinoveaVideoAnalysis") ? FileKind::kinovea_xml : FileKind::xml;
   }
@@ -114,7 +127,7 @@ FileKind kind_of_content(std::string_view head) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v';
   };
-  if (std::ranges::any_of(head, is_binary)) return FileKind::binary;
+  if (std::ranges::any_of(head, is_binary)) return kind_of_weights(head);
   return kind_of_text(head);
 }
 
@@ -138,11 +151,26 @@ bool is_binary(FileKind kind) {
     case FileKind::matlab:
     case FileKind::numpy:
     case FileKind::c3d:
+    case FileKind::safetensors:
+    case FileKind::tflite:
+    case FileKind::onnx:
     case FileKind::binary:
       return true;
     default:
       return false;
   }
+}
+
+bool is_json(FileKind kind) {
+  return kind == FileKind::json || kind == FileKind::keypoints || kind == FileKind::potential ||
+         kind == FileKind::points_json;
+}
+
+void require_plain_text(const fs::path& file, std::string_view what) {
+  const FileKind kind = kind_of(file);
+  require(!is_binary(kind) && !is_json(kind) && kind != FileKind::kinovea_xml &&
+              kind != FileKind::xml && kind != FileKind::svg && kind != FileKind::page,
+          "{}: is {}, {} is needed", file.string(), name(kind), what);
 }
 
 std::string_view name(FileKind kind) {
@@ -177,6 +205,8 @@ std::string_view name(FileKind kind) {
       return "a TRC file of markers";
     case FileKind::svg:
       return "an SVG picture";
+    case FileKind::page:
+      return "a page of stride report";
     case FileKind::image:
       return "a picture";
     case FileKind::video:
@@ -193,6 +223,12 @@ std::string_view name(FileKind kind) {
       return "a NumPy file (.npy)";
     case FileKind::c3d:
       return "a C3D file";
+    case FileKind::safetensors:
+      return "an agent or a checkpoint (safetensors)";
+    case FileKind::tflite:
+      return "a network (TensorFlow Lite)";
+    case FileKind::onnx:
+      return "a network (ONNX)";
     case FileKind::kinovea_xml:
       return "Kinovea's own file (.kva)";
     case FileKind::xml:

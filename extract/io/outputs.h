@@ -24,6 +24,7 @@ enum class FileKind {
   motion,  // OpenSim's .mot and .sto
   trc,
   svg,
+  page,  // stride report
   image,
   video,
   zip,
@@ -32,6 +33,9 @@ enum class FileKind {
   matlab,
   numpy,
   c3d,
+  safetensors,
+  tflite,
+  onnx,
   kinovea_xml,
   xml,
   json,
@@ -46,6 +50,11 @@ FileKind kind_of_content(std::string_view head);
 
 /// Whether it holds no text.
 bool is_binary(FileKind kind);
+
+bool is_json(FileKind kind);
+
+/// Throws Error, "FILE: is a video, WHAT is needed", if the file is binary, JSON or XML.
+void require_plain_text(const std::filesystem::path& file, std::string_view what);
 
 /// For a person: "a video", "a zip archive or an Excel workbook", …
 std::string_view name(FileKind kind);

@@ -35,7 +35,8 @@ void read_comment(const TextLine& comment, Table& table, const std::string& file
     table.format = trimmed(line.substr(7, space - 7));
     table.version = static_cast<int>(*version);
   } else if (const auto colon = line.find(':'); colon != std::string_view::npos) {
-    table.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+    table.metadata.emplace_back(trimmed(line.substr(0, colon)),
+                                from_one_line(trimmed(line.substr(colon + 1))));
   }
 }
 
@@ -108,15 +109,16 @@ std::size_t Table::column(std::string_view name) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-Table load_csv(const std::filesystem::path& file) { return parse(read_file(file), file.string()); }
+Table load_csv(const std::filesystem::path& file) {
+  require_plain_text(file, "a table (CSV)");
+  return parse(read_file(file), file.string());
+}
 
 Table load_table(const std::filesystem::path& file, std::string_view format, int version,
                  std::string_view cure) {
   const FileKind kind = kind_of(file);
-  require(!is_binary(kind) && kind != FileKind::json && kind != FileKind::keypoints &&
-              kind != FileKind::potential,
-          "{}: is {}, a {} file is needed{}{}", file.string(), name(kind), format,
-          cure.empty() ? "" : "; ", cure);
+  require(!is_binary(kind) && !is_json(kind), "{}: is {}, a {} file is needed{}{}", file.string(),
+          name(kind), format, cure.empty() ? "" : "; ", cure);
   Table table = load_csv(file);
   require(!table.format.empty(),
           "{}: not a file of ours: expected '# stride {} {}' in the first line", file.string(),
@@ -129,23 +131,12 @@ Table load_table(const std::filesystem::path& file, std::string_view format, int
   return table;
 }
 
-namespace {
-
-/// On one line, or it would be read as something else.
-std::string on_one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20; }, ' ');
-  return text;
-}
-
-}  // namespace
-
 void save(const Table& table, const std::filesystem::path& file) {
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   if (!table.format.empty()) fmt::format_to(to, "# stride {} {}\n", table.format, table.version);
   for (const auto& [key, value] : table.metadata)
-    fmt::format_to(to, "# {}: {}\n", key, on_one_line(value));
+    fmt::format_to(to, "# {}: {}\n", key, one_line(value));
   fmt::format_to(to, "{}\n", fmt::join(table.columns, ","));
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/outputs.h"
 
 namespace stride {
 namespace {
@@ -67,6 +68,7 @@ std::string TomlSetting::key() const {
 }
 
 std::vector<TomlSetting> load_toml(const std::filesystem::path& file) {
+  require_plain_text(file, "a file of settings (TOML)");
   return parse_toml(read_file(file), file.string());
 }
 
@@ -75,8 +77,10 @@ std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& 
   try {
     add_settings(toml::parse(text), {}, source, settings);
   } catch (const toml::parse_error& error) {
-    throw Error(
-        fmt::format("{}:{}: not TOML: {}", source, error.source().begin.line, error.description()));
+    std::string_view why = error.description();
+    if (why.starts_with("Error while parsing"))  // the name of a rule of the grammar
+      if (const auto colon = why.find(": "); colon != why.npos) why.remove_prefix(colon + 2);
+    throw Error(fmt::format("{}:{}: not TOML: {}", source, error.source().begin.line, why));
   }
   std::ranges::stable_sort(settings, {}, &TomlSetting::line);
   return settings;

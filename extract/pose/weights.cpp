@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "extract/io/error.h"
+#include "extract/io/outputs.h"
 
 namespace stride::pose {
 namespace fs = std::filesystem;
@@ -47,6 +48,9 @@ std::optional<Weights> installed_weights() {
 Weights weights_at(const fs::path& landmarks) {
   require(fs::exists(landmarks), "{}: no such file; {}", landmarks.string(),
           how_to_install_weights());
+  const FileKind kind = kind_of(landmarks);
+  require(kind == FileKind::tflite, "{}: is {}, a pose network (.tflite, or .onnx) is needed; {}",
+          landmarks.string(), name(kind), how_to_install_weights());
   const auto detector = detector_in(landmarks.parent_path());
   require(detector.has_value(), "{}: the detector, {}, must lie beside it; {}", landmarks.string(),
           kDetectors[0], how_to_install_weights());

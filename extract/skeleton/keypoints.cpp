@@ -201,8 +201,9 @@ Keypoints load_keypoints(const fs::path& path) {
 void check(const Keypoints& k, const std::string& what) {
   require(k.width_px > 0 && k.height_px > 0, "{}: frame size {}×{} px: must be positive", what,
           k.width_px, k.height_px);
-  require(std::isfinite(k.slow_motion) && k.slow_motion > 0,
-          "{}: slow_motion = {}: must be positive", what, k.slow_motion);
+  require(k.slow_motion >= 0.05 && k.slow_motion <= 100,
+          "{}: slow_motion = {}: must be in [0.05, 100] seconds of video a second", what,
+          k.slow_motion);
   if (k.trim)
     require(0 <= k.trim->first && k.trim->first <= k.trim->last,
             "{}: trim {}–{}: must be two frame numbers in order", what, k.trim->first,
@@ -211,7 +212,16 @@ void check(const Keypoints& k, const std::string& what) {
     require(k.floor->from_px.allFinite() && k.floor->to_px.allFinite() &&
                 k.floor->from_px.x() != k.floor->to_px.x(),
             "{}: floor_line_px: must be two points beside one another", what);
-  if (k.calibration_line) check(*k.calibration_line, what + ": calibration_line");
+  const auto is_inside = [&](const Eigen::Vector2d& p) {
+    return p.x() >= -0.5 && p.y() >= -0.5 && p.x() <= k.width_px - 0.5 &&
+           p.y() <= k.height_px - 0.5;
+  };
+  if (const auto& line = k.calibration_line) {
+    check(*line, what + ": calibration_line");
+    require(is_inside(line->from_px) && is_inside(line->to_px),
+            "{}: calibration_line: must lie in the picture of {}×{} px", what, k.width_px,
+            k.height_px);
+  }
   int before = -1;
   double before_s = -1;
   for (const auto& [frame, clicked] : k.frames) {
@@ -226,10 +236,9 @@ void check(const Keypoints& k, const std::string& what) {
       const Eigen::Vector2d& p = clicked[part]->p_px;
       require(p.allFinite(), "{}: frame {}: {} = ({}, {}): must be two numbers", what, frame,
               name(part), p.x(), p.y());
-      require(
-          p.x() >= -0.5 && p.y() >= -0.5 && p.x() <= k.width_px - 0.5 && p.y() <= k.height_px - 0.5,
-          "{}: frame {}: {} = ({}, {}): outside the frame of {}×{} px; mark it as absent", what,
-          frame, name(part), p.x(), p.y(), k.width_px, k.height_px);
+      require(is_inside(p),
+              "{}: frame {}: {} = ({}, {}): outside the frame of {}×{} px; mark it as absent", what,
+              frame, name(part), p.x(), p.y(), k.width_px, k.height_px);
     }
     before = frame;
     before_s = clicked.time_s;

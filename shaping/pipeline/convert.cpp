@@ -32,6 +32,7 @@ constexpr const char* kTrajectory = ".trajectory.csv";
 constexpr const char* kCalibrated = ".calibrated.csv";
 constexpr const char* kOverlay = ".overlay.mp4";
 constexpr const char* kLoop = ".loop.mp4";
+constexpr const char* kStamp = ".converted.json";
 
 bool ends_with(const fs::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
@@ -46,6 +47,7 @@ bool is_video(const fs::path& file) {
 std::string left_out(const fs::path& file) {
   const FileKind kind = kind_of(file);
   if (fs::is_directory(file)) return "a folder";
+  if (ends_with(file, kOverlay) || ends_with(file, kLoop)) return "made of another video here";
   if (kind != FileKind::video && kind != FileKind::binary) return std::string(name(kind));
   if (!fs::exists(keypoints_file_of(file)) && !pose::installed_weights())
     return fmt::format("no {} beside it", keypoints_file_of(file).filename().string());
@@ -113,7 +115,9 @@ class Clip {
                    {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
                    {"-o", out(".report.txt"), FileKind::report},
                    {"-o", out(".report.svg"), FileKind::svg},
-                   {"-o", out(".potential.json"), FileKind::potential}});
+                   {"-o", out(".potential.json"), FileKind::potential},
+                   {"-o", out(kStamp), FileKind::json},
+                   {"--overlay", options_.overlay ? out(kOverlay) : "", FileKind::video}});
   }
 
   CalibratedTrajectory loaded() {
@@ -185,19 +189,25 @@ class Clip {
         k.symmetric, kInverseDistances[k.function], kPotentialIndices[k.index], k.epsilon_m);
     all += fmt::format(" {} {} {}", k.weight, options_.network, options_.person);
     if (!clip_.movement.empty()) all += " " + clip_.movement;
+    if (!options_.landmarks.empty()) all += " " + sha256_of_file(options_.landmarks);
     if (is_video(input_) && fs::exists(keypoints_file_of(input_)))
       all += " " + sha256_of_file(keypoints_file_of(input_));
     return all;
   }
 
   bool is_done(const std::string& stamp) {
-    if (!fs::exists(out(".converted.json")) || !fs::exists(out(".potential.json"))) return false;
+    if (!fs::exists(out(kStamp)) || !fs::exists(out(".potential.json"))) return false;
+    if (!ends_with(input_, kCalibrated) && !fs::exists(out(kCalibrated))) return false;
     const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg")) ||
                        !load_potential(out(".potential.json")).repeats;
     if (options_.pictures && !drawn) return false;
     if (options_.overlay && is_video(input_) && !fs::exists(out(kOverlay))) return false;
-    const auto json = nlohmann::json::parse(read_file(out(".converted.json")), nullptr, false);
-    if (!json.is_object() || json.value("inputs", "") != stamp) return false;
+    const auto json = nlohmann::json::parse(read_file(out(kStamp)), nullptr, false);
+    const auto text = [&](const char* key) {
+      const auto found = json.is_object() ? json.find(key) : json.end();
+      return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+    };
+    if (text("inputs") != stamp) return false;
     const auto number = [&](const char* key) {
       return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");
     };
@@ -209,8 +219,8 @@ class Clip {
     result_.mm_per_px = number("mm_per_px");
     result_.rms_px = number("rms_px");
     result_.rms_cm = number("rms_cm");
-    result_.points = json.value("points", "");
-    result_.verdict = json.value("verdict", "");
+    result_.points = text("points");
+    result_.verdict = text("verdict");
     return true;
   }
 
@@ -225,7 +235,7 @@ class Clip {
                                       {"rms_cm", result_.rms_cm},
                                       {"points", result_.points},
                                       {"verdict", result_.verdict}};
-    write_file_atomically(out(".converted.json"), json_text(json));
+    write_file_atomically(out(kStamp), json_text(json));
   }
 
   fs::path input_;

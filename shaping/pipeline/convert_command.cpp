@@ -36,6 +36,10 @@ void run(ConvertCommand command) {
   options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
 
   const auto inputs = pipeline::expand_inputs(command.inputs, options.progress);
+  for (const auto& [name, settings] : options.by_clip)
+    if (std::ranges::find(inputs, name, pipeline::clip_name) == inputs.end())
+      options.progress(fmt::format("not used: {}: [clip.{}]: no input has that name",
+                                   command.config.string(), name));
   parallel::Ranks& ranks = parallel::Ranks::world();
   if (ranks.size() > 1) {
     // Each rank converts its share; then the first one finds it done, and tells of all.

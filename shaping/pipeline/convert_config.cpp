@@ -27,6 +27,11 @@ struct Setting {
             low, high);
     return parsed;
   }
+  int whole_in(int low, int high) const {
+    const double parsed = number_in(low, high);
+    require(parsed == std::floor(parsed), "{}: {} = {}: must be a whole number", file, key, value);
+    return static_cast<int>(parsed);
+  }
   bool flag() const {
     require(value == "true" || value == "false", "{}: {} = {}: must be true or false", file, key,
             value);
@@ -65,7 +70,7 @@ void apply(const Setting& setting, ClipOptions& clip) {
   else if (key == "force")
     clip.force = setting.flag();
   else if (key == "keyframes")
-    clip.keyframes.count = static_cast<int>(setting.number_in(2, 200));
+    clip.keyframes.count = setting.whole_in(2, 200);
   else if (key == "foot")
     clip.keyframes.foot = setting.one_of({"ankle", "toe"});
   else if (key == "symmetric")
@@ -75,9 +80,9 @@ void apply(const Setting& setting, ClipOptions& clip) {
   else if (key == "index")
     clip.keyframes.index = setting.one_of(kPotentialIndices);
   else if (key == "epsilon")
-    clip.keyframes.epsilon_m = setting.number();
+    clip.keyframes.epsilon_m = setting.number_in(1e-6, 10);
   else if (key == "weight")
-    clip.keyframes.weight = setting.number();
+    clip.keyframes.weight = setting.number_in(1e-9, 1e9);
   else
     throw Error(
         fmt::format("{}: key '{}' is not known; use height, leg, scale, direction, movement, "

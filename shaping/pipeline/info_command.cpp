@@ -8,10 +8,12 @@
 
 #include "calibrate/osim/model.h"
 #include "calibrate/runner/calibrated.h"
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/io/outputs.h"
 #include "extract/io/table.h"
+#include "extract/io/toml.h"
 #include "extract/skeleton/keypoints.h"
 #include "extract/skeleton/trajectory.h"
 #include "extract/tracking/time_check.h"
@@ -40,8 +42,8 @@ std::string about_potential(const Potential& p) {
       "function  {}, epsilon {} m, weight {}, keyframe by {}, foot = {}\n"
       "fit       {:.2f} px rms, {:.1f} cm\n"
       "phase   pelvis    knee_r          foot_r          knee_l          foot_l (m; +- 1 sd)\n",
-      p.source, p.model, p.movement, p.verdict, p.repeats ? "stride" : "lasts ", p.period_s,
-      p.period_sd_s, p.speed_m_s, kInverseDistances[p.function], p.epsilon_m, p.weight,
+      one_line(p.source), p.model, p.movement, p.verdict, p.repeats ? "stride" : "lasts ",
+      p.period_s, p.period_sd_s, p.speed_m_s, kInverseDistances[p.function], p.epsilon_m, p.weight,
       kPotentialIndices[p.index], p.foot, p.rms_px, 100 * p.rms_m);
   for (const Keyframe& k : p.keyframes) {
     const auto row = [](const Pose& pose) {
@@ -62,7 +64,7 @@ std::string about_keypoints(const Keypoints& k) {
     for (const BodyPart part : kBodyParts) seen[index(part)] += frame[part].has_value() ? 1 : 0;
   return fmt::format(
              "clicks on {}, {} x {}, movement {}, the runner faces {}\n{} frames, {} to {}\n{}",
-             k.video, k.width_px, k.height_px, k.movement,
+             one_line(k.video), k.width_px, k.height_px, k.movement,
              k.direction ? kFacings[*k.direction] : "(not said)", k.frames.size(),
              k.frames.empty() ? 0 : k.frames.begin()->first,
              k.frames.empty() ? 0 : k.frames.rbegin()->first, counts(seen)) +
@@ -77,7 +79,7 @@ std::string about_trajectory(const Trajectory& t) {
              "trajectory of {} in pixels, {} x {} at {:.2f} Hz, movement {}, the runner faces "
              "{}\n{} "
              "frames; marks:\n{}",
-             t.video, t.width_px, t.height_px, t.rate_hz, t.movement,
+             one_line(t.video), t.width_px, t.height_px, t.rate_hz, t.movement,
              t.direction ? kFacings[*t.direction] : "(not said)", t.frames.size(), counts(seen)) +
          calibration_line(t.calibration_line);
 }
@@ -88,9 +90,9 @@ std::string about_calibrated(const CalibratedTrajectory& c) {
       "run of {} on {}\nmovement  {}\nverdict   {}\nstride    {:.4f} s +- {:.4f}, {:.2f} of them, "
       "{:.2f} m/s\nscale     {:.3f} mm per pixel, roll {:.2f} deg\nfit       {:.2f} "
       "px rms, {:.1f} cm\nsamples   {}\n",
-      c.source, c.model, c.movement, c.verdict, c.period_s, c.period_sd_s, duration_s / c.period_s,
-      c.speed_m_s, 1000 * c.metres_per_pixel, c.camera_roll_rad * 180 / M_PI, c.rms_px,
-      100 * c.rms_m, c.samples.size());
+      one_line(c.source), c.model, c.movement, c.verdict, c.period_s, c.period_sd_s,
+      duration_s / c.period_s, c.speed_m_s, 1000 * c.metres_per_pixel,
+      c.camera_roll_rad * 180 / M_PI, c.rms_px, 100 * c.rms_m, c.samples.size());
 }
 
 std::string about_model(const osim::Model& m) {
@@ -113,7 +115,8 @@ std::string about_table(const Table& table) {
   std::string text =
       fmt::format("{} version {}, {} rows\n", table.format.empty() ? "a plain table" : table.format,
                   table.version, table.rows.size());
-  for (const auto& [key, value] : table.metadata) text += fmt::format("  {}: {}\n", key, value);
+  for (const auto& [key, value] : table.metadata)
+    text += fmt::format("  {}: {}\n", key, one_line(value));
   if (table.rows.empty()) return text;
   text += "last row\n";
   for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -190,14 +193,17 @@ std::string about(const fs::path& file) {
   if (kind == FileKind::video) return about_video(file);
   if (kind == FileKind::image || kind == FileKind::svg) return fmt::format("{}\n", name(kind));
   if (kind == FileKind::report || kind == FileKind::motion || kind == FileKind::trc ||
-      kind == FileKind::gnuplot_script || kind == FileKind::plot_data ||
-      file.extension() == ".toml")
+      kind == FileKind::gnuplot_script || kind == FileKind::plot_data)
     return beginning(file);
-  if (file.extension() == ".safetensors")
-    return fmt::format("an agent, {} bytes; its run says more: stride info RUN\n",
+  if (file.extension() == ".toml") {
+    load_toml(file);
+    return beginning(file);
+  }
+  if (kind == FileKind::safetensors)
+    return fmt::format("{}, {} bytes; its run says more: stride info RUN\n", name(kind),
                        fs::file_size(file));
-  if (file.extension() == ".onnx")
-    return fmt::format("a network for other programs, {} bytes\n", fs::file_size(file));
+  if (kind == FileKind::onnx || kind == FileKind::tflite)
+    return fmt::format("{}, {} bytes\n", name(kind), fs::file_size(file));
   require(file.extension() == ".csv",
           "{}: is {}, not a file of ours: a video, .json, .csv, .osim, .toml, .mot, .sto, .trc, "
           ".report.txt, or the folder of a run",

@@ -65,6 +65,21 @@ TEST(TrackCommand, SaysWhatIsWrong) {
     EXPECT_ERROR(run("track " + here + "/human.mp4"), "./setup.sh --pose fetches the pose network");
     EXPECT_ERROR(run("track " + here + "/human.mp4 --pose"), "no pose network is installed");
   }
+  std::string turned = read_file(kVideos / "human.keypoints.json");
+  turned.replace(turned.find("\"width_px\": 640"), 15, "\"width_px\": 641");
+  write_file_atomically(folder / "human.keypoints.json", turned);
+  EXPECT_ERROR(
+      run("track " + here + "/human.mp4"),
+      "human.keypoints.json: the clicks lie on a picture of 641 x 360 px, the video is 640");
+  EXPECT_ERROR(
+      run("annotate " + here + "/human.mp4 --script none"),
+      "human.keypoints.json: the clicks lie on a picture of 641 x 360 px, the video is 640");
+  for (const char* option :
+       {"--format coco", "--y-up 360", "--import-rate 30", "--points-size 1 1", "--first-frame 1",
+        "--labels knee_r=a", "--min-confidence 0.5", "--pose-box 1 2 3 4", "--pose-config a.toml"})
+    EXPECT_ERROR(run(fmt::format("track {}/human.mp4 {}", here, option)), "has no effect without");
+  EXPECT_ERROR(run("track " + here + "/human.mp4 --export " + here + "/a.docx"),
+               "a.docx: format 'docx' cannot be written");
   std::string clicks = read_file(kVideos / "human.keypoints.json");
   clicks.replace(clicks.find("\"video_sha256\": \"") + 17, 4, "ffff");
   write_file_atomically(folder / "human.keypoints.json", clicks);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "extract/io/option_range.h"
 #include "train/evaluation/evaluate.h"
 
 namespace stride {
@@ -19,17 +20,22 @@ void add_evaluate_command(CLI::App& app) {
   evaluation::EvaluateOptions& options = request->options;
   command->add_option("run", request->run, "Run folder")->required();
   command->add_option("--episodes", options.episodes, "Episodes, each of another seed")
+      ->check(in_range(1, 1e6))
       ->capture_default_str();
   command
       ->add_option("--first", options.first_seed,
                    "The first seed: choose an agent on some scenes, report it on others")
       ->capture_default_str();
   command->add_option("--obstacles", options.obstacles, "At most; -1: as in training")
+      ->check(in_range(-1, 1000))
       ->capture_default_str();
-  command->add_option("--threads", options.threads, "0: one a core")->capture_default_str();
+  command->add_option("--threads", options.threads, "0: one a core")
+      ->check(in_range(0, 1024))
+      ->capture_default_str();
   command->add_option("--agent", options.agent, "best, or agent: the last one")
       ->capture_default_str();
   command->add_option("--difficulty", options.difficulty, "0, 1, 2; -1: as in training")
+      ->check(in_range(-1, 2))
       ->capture_default_str();
   command->add_option("--rules", options.rules, "clean or nips2017; as in training if not given");
   command->add_option("--engine", options.engine, "planar or simbody; as in training if not given");
@@ -37,6 +43,7 @@ void add_evaluate_command(CLI::App& app) {
   command->add_option("--trajectory", options.trajectory,
                       "Write this run as a demonstration, NAME.calibrated.csv");
   command->add_option("--from", options.from_s, "Where the demonstration begins, s")
+      ->check(in_range(0, 1000))
       ->capture_default_str();
   command->add_option("--clip", options.clip,
                       "Compare the joint angles with this run, NAME.calibrated.csv");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "extract/io/error.h"
+#include "extract/io/option_range.h"
 #include "extract/parallel/ranks.h"
 #include "train/commands/interrupt.h"
 #include "train/experiments/experiment.h"
@@ -109,7 +110,9 @@ void add_experiment_command(CLI::App& app) {
   command->add_option("--seeds", request->seeds, "1, 2, … so many, instead of the file's")
       ->check(CLI::PositiveNumber);
   command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
-  command->add_option("--jobs", options.jobs, "Runs side by side")->capture_default_str();
+  command->add_option("--jobs", options.jobs, "Runs side by side")
+      ->check(in_range(1, 1024))
+      ->capture_default_str();
   command->add_flag("--list", request->list,
                     "Only print the runs, ARM/SEED, a line each; of figures/all the verdicts");
   command->add_option("--only", options.only,

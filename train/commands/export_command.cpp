@@ -30,7 +30,7 @@ void export_policy(const ExportRequest& request) {
   const std::string precision = training::load_run_options(request.run).run.precision;
   const std::filesystem::path out =
       request.out.empty() ? request.run / (request.agent + ".onnx") : request.out;
-  check_outputs({file}, {{"-o", out, FileKind::binary}});
+  check_outputs({file}, {{"-o", out, FileKind::onnx}});
   write_file_atomically(out, precision == "float" ? onnx_of<float>(file) : onnx_of<double>(file));
   fmt::print("{}\n", out.string());
 }

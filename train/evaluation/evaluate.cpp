@@ -154,8 +154,13 @@ std::string Evaluation::brief_report() const {
 Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   require(options.episodes >= 1, "--episodes {}: must be at least 1", options.episodes);
   require(options.first_seed >= 0, "--first {}: must be at least 0", options.first_seed);
-  check_outputs({run / "reference.calibrated.csv"},
-                {{"--trajectory", options.trajectory, FileKind::calibrated}});
+  const fs::path out = options.out.empty() ? run : options.out;
+  check_outputs({run / "reference.calibrated.csv", options.clip},
+                {{"--trajectory", options.trajectory, FileKind::calibrated},
+                 {"--out", out / "evaluation.json", FileKind::json},
+                 {"--out", out / "evaluation.mot", FileKind::motion},
+                 {"--out", out / "evaluation.sto", FileKind::motion},
+                 {"--out", options.film ? out / "evaluation.mp4" : "", FileKind::video}});
   const fs::path agent = network::agent_file(run, options.agent);
   training::TrainOptions train_options = training::load_run_options(run);
   if (options.difficulty >= 0) train_options.environment.difficulty = options.difficulty;
@@ -186,7 +191,6 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
   if (!options.clip.empty())
     evaluation.likeness = rollout::likeness(median, load_calibrated(options.clip), model);
 
-  const fs::path out = options.out.empty() ? run : options.out;
   evaluation.file = out / "evaluation.json";
   write_file_atomically(evaluation.file, json_text(to_json(evaluation, agent)));
   write_file_atomically(out / "evaluation.mot", rollout::motion_file(median));

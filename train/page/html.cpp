@@ -163,7 +163,8 @@ std::string markdown(std::string_view text) {
 std::string document(std::string_view title, std::string_view body) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"generator\" content=\"stride\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}"
       "<footer>Written by stride {3}. SI units. This page is one file: it needs no network and no "
       "scripts.</footer>\n</body>\n</html>\n",

@@ -18,12 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+fs::path evaluation_file(const fs::path& run) { return run / "evaluation.json"; }
+
 Json load_evaluation(const fs::path& run) {
-  const fs::path file = run / "evaluation.json";
+  const fs::path file = evaluation_file(run);
   require(fs::exists(file), "{}: the run has not been evaluated; `stride evaluate {}` does it",
           run.string(), run.string());
   const Json json = Json::parse(read_file(file), nullptr, false);
-  require(!json.is_discarded() && json.value("format", "") == "stride-evaluation",
+  require(json.is_object() && json.contains("format") && json["format"] == "stride-evaluation",
           "{}: not what stride evaluate writes", file.string());
   return json;
 }
@@ -122,10 +124,15 @@ std::string film_section(const fs::path& run) {
 std::string run_page(const fs::path& given) {
   const fs::path run = fs::absolute(given / "").lexically_normal().parent_path();
   const Json evaluation = load_evaluation(run);
-  int inside = 0, compared = 0;
-  const std::string gait = gait_table(evaluation, inside, compared);
-  std::string body =
-      fmt::format("<p class=\"verdict\">{}</p>\n", escaped(verdict(evaluation, inside, compared)));
+  std::string gait, body;
+  try {
+    int inside = 0, compared = 0;
+    gait = gait_table(evaluation, inside, compared);
+    body = fmt::format("<p class=\"verdict\">{}</p>\n",
+                       escaped(verdict(evaluation, inside, compared)));
+  } catch (const Json::exception&) {  // a value of another kind
+    throw Error(fmt::format("{}: not what stride evaluate writes", evaluation_file(run).string()));
+  }
   body += film_section(run);
   body += "<h2>Its gait</h2>\n" + gait;
   body += curve_section(run);

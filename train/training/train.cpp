@@ -242,6 +242,8 @@ void make_run_folder(const TrainOptions& options, const Demonstration& demonstra
   require(!fs::exists(run / "config.toml"),
           "{}: holds a run already; continue it with --resume, or choose another folder",
           run.string());
+  require(!fs::exists(run) || fs::is_directory(run), "--out {}: is a file: name a new folder",
+          run.string());
   if (fs::exists(run))
     for (const fs::directory_entry& entry : fs::directory_iterator(run))
       require(entry.path().filename().string().starts_with('.'),

@@ -4,6 +4,7 @@
 #include "extract/import/parsing/columns.h"
 #include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 
 namespace stride::imports {
@@ -25,7 +26,7 @@ Declared declared_in(const TextTable& table) {
       const double number = cell_number(value(key)).value_or(0);
       if (number >= 1 && number < 100000) px = static_cast<int>(number);
     };
-    if (const auto name = value("video:"); !name.empty()) declared.video = name;
+    if (const auto name = value("video:"); !name.empty()) declared.video = from_one_line(name);
     if (const auto hash = value("video_sha256:"); !hash.empty()) declared.sha256 = hash;
     size("width_px:", declared.width_px);
     size("height_px:", declared.height_px);

@@ -30,6 +30,10 @@ TEST(FileKind, IsToldFromTheFirstBytes) {
             FileKind::utf16);
   EXPECT_EQ(kind_of_content("<?xml?>\n<KinoveaVideoAnalysis>"), FileKind::kinovea_xml);
   EXPECT_EQ(kind_of_content("frame;x\n1;2"), FileKind::text);
+  EXPECT_EQ(
+      kind_of_content("<!DOCTYPE html>\n<html>\n<meta name=\"generator\" content=\"stride\">"),
+      FileKind::page);
+  EXPECT_EQ(kind_of_content("<!DOCTYPE html>\n<html>"), FileKind::xml);
   EXPECT_EQ(kind_of_content("a\0b"sv), FileKind::binary);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "extract/io/csv.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "tests/support/temporary_folder.h"
@@ -27,6 +28,45 @@ TEST(Table, ReadsBackEveryDoubleAsItWas) {
   EXPECT_EQ(loaded.rows[0], table.rows[0]);
   EXPECT_TRUE(std::isnan(loaded.rows[1][0]));
   EXPECT_EQ(loaded.rows[1][1], table.rows[1][1]);
+}
+
+TEST(Table, ReadsBackEveryTextAsItWas) {
+  const TemporaryFolder folder;
+  Table table;
+  table.format = "trajectory";
+  table.columns = {"a"};
+  const std::vector<std::string> texts{"run.mp4",
+                                       "two\nlines",
+                                       "# stride calibrated 1\n# verdict: ok",
+                                       " blank ",
+                                       "tab\t",
+                                       "a, b;",
+                                       "back\\slash",
+                                       "\"quoted\"",
+                                       "it's \"quoted\"",
+                                       "\r",
+                                       "\x1b[2J",
+                                       "caf\xe9 \n",
+                                       "走る",
+                                       "a: b",
+                                       "\\n",
+                                       ""};
+  for (std::size_t i = 0; i < texts.size(); ++i) table.set_meta(std::to_string(i), texts[i]);
+  save(table, folder / "t.csv");
+  const Table loaded = load_table(folder / "t.csv", "trajectory", 1);
+  EXPECT_EQ(loaded.metadata, table.metadata);
+  EXPECT_EQ(loaded.columns, table.columns);
+}
+
+TEST(Table, WritesOrdinaryTextsAsTheyAreAndReadsOlderFiles) {
+  for (const char* text : {"run 1.mp4", "back\\slash.mp4", "it's \"so\"", "-0.5", "走る.mp4"}) {
+    EXPECT_EQ(one_line(text), text);
+    EXPECT_EQ(from_one_line(text), text);
+  }
+  // Quotes that are no escaped text belong to the name.
+  for (const char* text : {"\"", "\"a\\q\"", "\"a\"b\"", "\"a\\\"", "\"\\xg0\"", "\"\\x1\""})
+    EXPECT_EQ(from_one_line(text), text);
+  EXPECT_EQ(one_line("a\nb"), "\"a\\nb\"");
 }
 
 TEST(Table, NamesFileLineColumnAndValueOfABadCell) {

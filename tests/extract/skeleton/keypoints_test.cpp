@@ -111,13 +111,15 @@ TEST(Keypoints, RefuseBadValuesByFileFramePartAndRule) {
   reject("320.25", "null", "frame 5: pelvis: x = null: must be a number of pixels");
   reject("320.25", "1e999", "a.keypoints.json: not valid JSON");
   reject("\"length_m\": 1.5", "\"length_m\": 0", "calibration_line: length 0 m: must be 0.05 to");
+  reject("240.5", "2400.5", "calibration_line: must lie in the picture of 640×360 px");
   reject("240.5", "41.5", "calibration_line: 1.0 px long: must be 10 px or more");
   reject("\"estimated\"", "\"guessed\"", "frame 5: knee_l: state = guessed: must be seen");
   reject("\"frame\": 12", "\"frame\": 5", "frame 5 appears twice");
   reject("\"time_s\": 0.3", "\"time_s\": 0.05",
          "frame 12: time_s = 0.05: must be later than frame 5");
   reject("\"left\"", "\"up\"", "direction = up: must be right or left");
-  reject("\"slow_motion\": 4.0", "\"slow_motion\": 0", "slow_motion = 0: must be positive");
+  reject("\"slow_motion\": 4.0", "\"slow_motion\": 0", "slow_motion = 0: must be in");
+  reject("\"slow_motion\": 4.0", "\"slow_motion\": 1e9", "slow_motion = 1000000000: must be in");
 }
 
 TEST(Keypoints, AreNotSavedWithNonsense) {

@@ -84,6 +84,39 @@ TEST(Convert, LeavesAloneWhatHasNotChanged) {
             read_file(folder / "out" / "human.potential.json"));
 }
 
+TEST(Convert, MakesAnewWhatIsGoneOrNotItsOwn) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  const std::vector<std::filesystem::path> inputs{folder / "human.trajectory.csv"};
+  const pipeline::ConvertOptions options = into(folder);
+  pipeline::convert(inputs, options);
+  std::filesystem::remove(folder / "out" / "human.calibrated.csv");
+  EXPECT_FALSE(pipeline::convert(inputs, options)[0].unchanged);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "human.calibrated.csv"));
+  const auto stamp = folder / "out" / "human.converted.json";
+  for (const char* other : {"{\"inputs\": 3}", "{}", "{\"inputs\": [1]}"}) {
+    write_file_atomically(stamp, other);
+    const auto result = pipeline::convert(inputs, options)[0];
+    EXPECT_FALSE(result.failed) << result.verdict;
+    EXPECT_FALSE(result.unchanged);
+  }
+  write_file_atomically(stamp, "my notes");
+  EXPECT_THAT(pipeline::convert(inputs, options)[0].verdict,
+              testing::HasSubstr("human.converted.json: there is a text of that name"));
+  EXPECT_EQ(read_file(stamp), "my notes");
+}
+
+TEST(Convert, PassesOverItsOwnVideosInAFolder) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.mp4", "a.overlay.mp4", "a.loop.mp4"})
+    std::filesystem::copy_file(STRIDE_SOURCE_DIR "/videos/small.mp4", folder / name);
+  for (const char* name : {"a", "a.overlay", "a.loop"})
+    write_file_atomically(folder / (std::string(name) + ".keypoints.json"), "{}");
+  const auto inputs = pipeline::expand_inputs({folder.path()});
+  ASSERT_EQ(inputs.size(), 1U);
+  EXPECT_EQ(inputs[0].filename(), "a.mp4");
+}
+
 TEST(Convert, GoesOnWhereItWasKilled) {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> inputs;
@@ -179,6 +212,11 @@ TEST(Convert, ReadsSettingsOfAllClipsAndOfOne) {
   write_file_atomically(folder / "b.toml", "wieght = 0.5\n");
   EXPECT_ERROR(pipeline::load_convert_config(folder / "b.toml", options),
                "key 'wieght' is not known; use");
+  for (const char* wrong :
+       {"weight = -1\n", "epsilon = 0\n", "keyframes = 8.5\n", "weight = nan\n"}) {
+    write_file_atomically(folder / "d.toml", wrong);
+    EXPECT_ERROR(pipeline::load_convert_config(folder / "d.toml", options), "must be");
+  }
   write_file_atomically(folder / "c.toml", "function = \"pf9\"\n");
   EXPECT_ERROR(pipeline::load_convert_config(folder / "c.toml", options),
                "function = 'pf9': must be one of");

@@ -60,6 +60,19 @@ TEST(Page, OfARunTellsDistanceGaitAndCurve) {
   EXPECT_NE(html.find("action_repeat = 3"), std::string::npos);
 }
 
+TEST(Page, OfARunRefusesAnEvaluationOfOthers) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "config.toml", "");
+  for (const char* other :
+       {"[1, 2]", "3", "{\"format\": 1}",
+        "{\"format\": \"stride-evaluation\", \"falls\": \"none\"}",
+        "{\"format\": \"stride-evaluation\", \"gait\": {\"cadence_per_min\": 1}, "
+        "\"human_at_this_speed\": {\"cadence_per_min\": []}}"}) {
+    write_file_atomically(folder / "evaluation.json", other);
+    EXPECT_ERROR(page_of(folder.path(), ""), "evaluation.json: not what stride evaluate writes");
+  }
+}
+
 TEST(Page, OfAJumpShowsTheFlight) {
   const TemporaryFolder folder;
   const std::filesystem::path video = data_file("videos/jump.mp4");
