@@ -120,6 +120,7 @@ bool replaces(const fs::path& output, const fs::path& input) {
 
 FileKind kind_of_content(std::string_view head) {
   if (head.empty()) return FileKind::empty;
+  if (head.starts_with("\x89PNG"sv) && head.find("acTL"sv) != head.npos) return FileKind::video;
   for (const auto& [bytes, kind] : kSignatures)
     if (head.starts_with(bytes)) return kind;
   if (is_mp4(head) || is_transport_stream(head)) return FileKind::video;

@@ -29,6 +29,9 @@ TEST(FileKind, IsToldFromTheFirstBytes) {
                             "f\0r\0"sv),
             FileKind::utf16);
   EXPECT_EQ(kind_of_content("<?xml?>\n<KinoveaVideoAnalysis>"), FileKind::kinovea_xml);
+  const std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  EXPECT_EQ(kind_of_content(png), FileKind::image);
+  EXPECT_EQ(kind_of_content(png + "acTL"), FileKind::video);  // an animated one
   EXPECT_EQ(kind_of_content("frame;x\n1;2"), FileKind::text);
   EXPECT_EQ(
       kind_of_content("<!DOCTYPE html>\n<html>\n<meta name=\"generator\" content=\"stride\">"),
