@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -77,6 +78,15 @@ FileKind kind_of_weights(std::string_view head) {
   return FileKind::binary;
 }
 
+/// [section] of a TOML file, which is no array of JSON.
+bool is_section(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  const auto letters = line.find_first_not_of('[');
+  return letters != line.npos && line.find(']') != line.npos &&
+         std::isalpha(static_cast<unsigned char>(line[letters])) != 0 &&
+         line.find_first_of("\",{:") == line.npos;
+}
+
 FileKind kind_of_text(std::string_view head) {
   const auto has = [&](std::string_view text) { return head.find(text) != head.npos; };
   const auto start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF"sv);
@@ -86,7 +96,7 @@ FileKind kind_of_text(std::string_view head) {
     if (has("<svg")) return FileKind::svg;
     return has("<KinoveaVideoAnalysis") ? FileKind::kinovea_xml : FileKind::xml;
   }
-  if (first == '{' || first == '[') {
+  if (first == '{' || (first == '[' && !is_section(head.substr(start)))) {
     if (has("\"stride keypoints\"")) return FileKind::keypoints;
     if (has("\"stride-potential\"")) return FileKind::potential;
     if (has("\"stride points\"")) return FileKind::points_json;

@@ -53,7 +53,8 @@ TEST(Variant, FromOnePlaceKeepsTheRunnerInTheFrame) {
   const Clip clip = from_one_place(stride::videos::clip("human"));
   const Trajectory truth = truth_px(clip);
   for (const TrajectoryFrame& frame : truth.frames)
-    for (const Point& point : frame.points) {
+    for (const BodyPart part : kAskedParts) {
+      const Point& point = frame[part];
       EXPECT_GT(point.p_px.minCoeff(), 0);
       EXPECT_LT(point.p_px.x(), clip.width_px);
       EXPECT_LT(point.p_px.y(), clip.height_px);

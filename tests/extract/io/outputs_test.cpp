@@ -40,6 +40,13 @@ TEST(FileKind, IsToldFromTheFirstBytes) {
   EXPECT_EQ(kind_of_content("a\0b"sv), FileKind::binary);
 }
 
+TEST(FileKind, ASectionOfTomlIsNoJson) {
+  EXPECT_EQ(kind_of_content("[run]\nlearner = \"ppo\"\n"), FileKind::text);
+  EXPECT_EQ(kind_of_content("\n[[arms]]  # one\nname = \"a\"\n"), FileKind::text);
+  EXPECT_EQ(kind_of_content("[true, {\"a\": 1}]"), FileKind::json);
+  EXPECT_EQ(kind_of_content("[\n {\"a\": 1}]"), FileKind::json);
+}
+
 TEST(FileKind, OfOurOwnFilesIsTheirs) {
   const std::filesystem::path videos = std::filesystem::path(STRIDE_SOURCE_DIR) / "videos";
   EXPECT_EQ(kind_of(videos / "human.mp4"), FileKind::video);

@@ -48,7 +48,9 @@ TEST(NetworkPoints, AreOfEveryPartButTheHips) {
   for (const BodyPart part : kBodyParts) {
     const bool is_hip = part == BodyPart::hip_r || part == BodyPart::hip_l;
     EXPECT_EQ(frame[part].present(), !is_hip) << name(part);
-    if (!is_hip) EXPECT_TRUE(places.insert(frame[part].p_px.y()).second) << name(part);
+    if (!is_hip) {
+      EXPECT_TRUE(places.insert(frame[part].p_px.y()).second) << name(part);
+    }
   }
   EXPECT_EQ(frame[BodyPart::heel_r].p_px.y(), 30);
   EXPECT_EQ(frame[BodyPart::heel_l].p_px.y(), 29);
@@ -85,9 +87,10 @@ TEST(Weights, OfAnotherKindAreRefusedByName) {
   const auto file = folder / "pose_landmark_heavy.tflite";
   std::ofstream(file, std::ios::binary) << writer.file({in}, {out});
   EXPECT_ERROR(LandmarkNetwork(file), "its output Identity is [1, 196608]");
+  EXPECT_ERROR(weights_at(file), "must lie beside it");
   std::ofstream(file, std::ios::binary) << "not a network";
   EXPECT_ERROR(LandmarkNetwork(file), "setup.sh --pose");
-  EXPECT_ERROR(weights_at(file), "must lie beside it");
+  EXPECT_ERROR(weights_at(file), "is a text, a pose network (.tflite, or .onnx) is needed");
 }
 
 /// With the network itself, where it is installed.
