@@ -80,11 +80,11 @@ FileKind kind_of_weights(std::string_view head) {
 
 /// [section] of a TOML file, which is no array of JSON.
 bool is_section(std::string_view text) {
-  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
-  const auto letters = line.find_first_not_of('[');
-  return letters != line.npos && line.find(']') != line.npos &&
-         std::isalpha(static_cast<unsigned char>(line[letters])) != 0 &&
-         line.find_first_of("\",{:") == line.npos;
+  const std::string_view inside = text.substr(0, text.find(']'));
+  const auto letters = inside.find_first_not_of('[');
+  return inside.size() < text.size() && letters != inside.npos &&
+         std::isalpha(static_cast<unsigned char>(inside[letters])) != 0 &&
+         inside.find_first_of("\",{:\r\n") == inside.npos;
 }
 
 FileKind kind_of_text(std::string_view head) {

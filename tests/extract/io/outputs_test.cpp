@@ -43,6 +43,7 @@ TEST(FileKind, IsToldFromTheFirstBytes) {
 TEST(FileKind, ASectionOfTomlIsNoJson) {
   EXPECT_EQ(kind_of_content("[run]\nlearner = \"ppo\"\n"), FileKind::text);
   EXPECT_EQ(kind_of_content("\n[[arms]]  # one\nname = \"a\"\n"), FileKind::text);
+  EXPECT_EQ(kind_of_content("[run]  # mine: a, b\nlearner = \"ppo\"\n"), FileKind::text);
   EXPECT_EQ(kind_of_content("[true, {\"a\": 1}]"), FileKind::json);
   EXPECT_EQ(kind_of_content("[\n {\"a\": 1}]"), FileKind::json);
 }
