@@ -53,7 +53,8 @@ std::unique_ptr<Task> make_task(const TaskOptions& options, const osim::Model& m
 double time_limit_s(std::string_view task);
 /// What measure_m() is, for axes and reports: "distance in 10 s".
 std::string_view measure_of(std::string_view task);
-/// Measures that are worth telling apart in a report are so far apart, m.
+/// Measures that are worth telling apart in a report are so far apart, m. Throws Error for an
+/// unknown task.
 double milestone_m(std::string_view task);
 /// The names of all tasks.
 std::vector<std::string> task_names();
