@@ -20,12 +20,14 @@ inline constexpr Names<InverseDistance> kInverseDistances({{InverseDistance::pf1
                                                            {InverseDistance::pf3, "pf3"},
                                                            {InverseDistance::pf4, "pf4"}});
 
-/// `variance`: mean square of the part's distance from its mean place over the stride, m².
-inline double inverse_distance(InverseDistance function, const Eigen::Vector2d& d, double epsilon,
-                               double variance) {
+/// `d`: of the place, m, and perhaps of the velocity, in metres as well. `variance`: mean square of
+/// the same distance from its mean over the stride, m².
+template <int kNumbers>
+double inverse_distance(InverseDistance function, const Eigen::Matrix<double, kNumbers, 1>& d,
+                        double epsilon, double variance) {
   switch (function) {
     case InverseDistance::pf1:
-      return 1 / (std::abs(d.x()) + std::abs(d.y()) + epsilon);
+      return 1 / (d.template lpNorm<1>() + epsilon);
     case InverseDistance::pf2:
       return 1 / std::sqrt(d.squaredNorm() + epsilon * epsilon);
     case InverseDistance::pf3:

@@ -87,6 +87,11 @@ struct Pose {
   }
 };
 
+/// A pose and how fast its parts move, m/s.
+struct MovingPose {
+  Pose pose, velocity;
+};
+
 /// How far a part is from where it is in another pose; of the pelvis only the height.
 inline Eigen::Vector2d displacement(const Pose& from, const Pose& to, PosePart part) {
   const std::span<const double> a = from.numbers(part), b = to.numbers(part);

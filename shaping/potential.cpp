@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
@@ -12,15 +13,27 @@
 namespace stride {
 namespace {
 
+/// The motion of the video at each keyframe; at rest unless velocities are compared.
+std::vector<MovingPose> demonstrated(const Potential& potential) {
+  std::vector<MovingPose> motions;
+  motions.reserve(potential.keyframes.size());
+  for (const Keyframe& keyframe : potential.keyframes)
+    motions.push_back({keyframe.pose, potential.velocity_s > 0
+                                          ? potential.target_velocity(keyframe.phase)
+                                          : Pose{}});
+  return motions;
+}
+
 /// Mean square distance of a part from its mean place over the keyframes, m².
-double variance(const std::vector<Keyframe>& keyframes, PosePart part) {
+double variance(std::span<const MovingPose> keyframes, const Pose MovingPose::*what,
+                PosePart part) {
   const auto n = static_cast<double>(keyframes.size());
   double total = 0;
   for (std::size_t i = 0; i < compared(part).numbers; ++i) {
     double sum = 0, squares = 0;
-    for (const Keyframe& keyframe : keyframes) sum += keyframe.pose.numbers(part)[i];
-    for (const Keyframe& keyframe : keyframes)
-      squares += std::pow(keyframe.pose.numbers(part)[i] - sum / n, 2);
+    for (const MovingPose& each : keyframes) sum += (each.*what).numbers(part)[i];
+    for (const MovingPose& each : keyframes)
+      squares += std::pow((each.*what).numbers(part)[i] - sum / n, 2);
     total += squares / n;
   }
   return total;
@@ -28,13 +41,24 @@ double variance(const std::vector<Keyframe>& keyframes, PosePart part) {
 
 /// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so it is compared by
 /// its height.
-double closeness(const Potential& potential, const Pose& pose, const Pose& target) {
+double closeness(const Potential& potential, std::span<const MovingPose> keyframes,
+                 const MovingPose& motion, const MovingPose& target) {
   const bool by_variance = potential.function == InverseDistance::pf4;
+  const double velocity_s = potential.velocity_s;
   double sum = 0;
-  for (const ComparedPart& each : kPoseParts)
-    sum += inverse_distance(potential.function, displacement(target, pose, each.part),
-                            potential.epsilon_m,
-                            by_variance ? variance(potential.keyframes, each.part) : 0);
+  for (const ComparedPart& each : kPoseParts) {
+    double s2 = by_variance ? variance(keyframes, &MovingPose::pose, each.part) : 0;
+    const Eigen::Vector2d place = displacement(target.pose, motion.pose, each.part);
+    if (velocity_s == 0) {
+      sum += inverse_distance(potential.function, place, potential.epsilon_m, s2);
+      continue;
+    }
+    if (by_variance)
+      s2 += velocity_s * velocity_s * variance(keyframes, &MovingPose::velocity, each.part);
+    Eigen::Vector4d d;
+    d << place, velocity_s * displacement(target.velocity, motion.velocity, each.part);
+    sum += inverse_distance(potential.function, d, potential.epsilon_m, s2);
+  }
   return potential.weight * sum;
 }
 
@@ -85,10 +109,20 @@ std::vector<double> resting_spline_weights(std::size_t n, double position) {
 }  // namespace
 
 double Potential::operator()(const Pose& pose, double phase) const {
-  if (index == PotentialIndex::time) return closeness(*this, pose, target(phase));
+  require(velocity_s == 0, "potential: velocities are compared: a pose alone has none");
+  return (*this)(MovingPose{pose, {}}, phase);
+}
+
+double Potential::operator()(const MovingPose& motion, double phase) const {
+  std::vector<MovingPose> motions;
+  if (index == PotentialIndex::nearest || function == InverseDistance::pf4)
+    motions = demonstrated(*this);
+  if (index == PotentialIndex::time)
+    return closeness(*this, motions, motion,
+                     {target(phase), velocity_s > 0 ? target_velocity(phase) : Pose{}});
   double nearest = -std::numeric_limits<double>::infinity();
-  for (const Keyframe& keyframe : keyframes)
-    nearest = std::max(nearest, closeness(*this, pose, keyframe.pose));
+  for (const MovingPose& each : motions)
+    nearest = std::max(nearest, closeness(*this, motions, motion, each));
   return nearest;
 }
 
@@ -111,13 +145,23 @@ Pose Potential::target(double phase) const {
   return pose;
 }
 
+Pose Potential::target_velocity(double phase) const {
+  constexpr double kStep = 1e-3;  // of the stride
+  const Pose before = target(phase - kStep), after = target(phase + kStep);
+  Pose velocity;
+  for (std::size_t i = 0; i < kPoseNumbers; ++i)
+    velocity.m[i] = (after.m[i] - before.m[i]) / (2 * kStep * period_s);
+  return velocity;
+}
+
 double Potential::contrast() const {
   double in_step = 0, anywhere = 0;
-  const auto n = static_cast<double>(keyframes.size());
-  for (const Keyframe& demonstrated : keyframes) {
-    in_step += closeness(*this, demonstrated.pose, demonstrated.pose) / n;
-    for (const Keyframe& other : keyframes)
-      anywhere += closeness(*this, other.pose, demonstrated.pose) / (n * n);
+  const std::vector<MovingPose> motions = demonstrated(*this);
+  const auto n = static_cast<double>(motions.size());
+  for (const MovingPose& one : motions) {
+    in_step += closeness(*this, motions, one, one) / n;
+    for (const MovingPose& other : motions)
+      anywhere += closeness(*this, motions, other, one) / (n * n);
   }
   return in_step - anywhere;
 }

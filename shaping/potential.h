@@ -41,12 +41,15 @@ struct Potential {
   InverseDistance function = InverseDistance::pf3;
   PotentialIndex index = PotentialIndex::time;
   double epsilon_m = 0.05;
+  double velocity_s = 0;  // > 0: velocities are compared as well, 1 m/s as so many metres
   double weight = 1;
 
   /// Φ(s, phase), ≥ 0 or of pf4 ≤ 0: weight · the sum over pelvis height, two knees, two feet.
   /// Between keyframes the target moves on a cubic spline, periodic or at rest at both ends.
   /// `phase` (any real number, modulo 1 or held at the ends) is ignored by the index `nearest`.
+  /// Where velocities are compared, the motion is needed; a pose alone is refused.
   double operator()(const Pose& pose, double phase) const;
+  double operator()(const MovingPose& motion, double phase) const;
 
   /// Phase after `time_s` from phase 0, at the video's cadence; of what does not repeat at most 1.
   double phase_at(double time_s) const;
@@ -57,6 +60,9 @@ struct Potential {
 
   /// The pose of the runner in the video at that phase.
   Pose target(double phase) const;
+
+  /// Its velocity, m/s.
+  Pose target_velocity(double phase) const;
 };
 
 /// Sets movement, repeats and mirrored_after. Throws Error, beginning with `what`.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/throws.h"
+
 namespace stride {
 namespace {
 
@@ -65,6 +67,37 @@ TEST(Potential, Pf4IsASquaredExponentialOfTheKeyframesOwnSpreadNowherePositive) 
   EXPECT_NEAR(potential(pose, 0.25), -2 * 5, 1e-12);
   potential.index = PotentialIndex::nearest;
   EXPECT_NEAR(potential(pose, 0.25), -2 * 5, 1e-12);
+}
+
+TEST(Potential, AVelocityCountsAsADistance) {
+  Potential potential = hamner();
+  potential.function = InverseDistance::pf3;
+  potential.epsilon_m = 0.1;
+  potential.weight = 2;
+  potential.velocity_s = 0.1;
+  MovingPose motion{potential.target(0.25), potential.target_velocity(0.25)};
+  EXPECT_NEAR(potential(motion, 0.25), 2 * 5 / 0.01, 1e-9);
+  motion.pose[PosePart::foot_l] += Eigen::Vector2d(0, 0.05);
+  motion.velocity[PosePart::foot_l] += Eigen::Vector2d(0.6, 0.8);
+  EXPECT_NEAR(potential(motion, 0.25), 2 * (4 / 0.01 + 1 / (0.0025 + 0.01 + 0.01)), 1e-9);
+  const MovingPose mirrored{motion.pose.mirrored(), motion.velocity.mirrored()};
+  for (const auto& [index, name] : kPotentialIndices) {
+    potential.index = index;
+    EXPECT_NEAR(potential(mirrored, 0.75), potential(motion, 0.25), 1e-6) << name;
+  }
+  EXPECT_ERROR(potential(motion.pose, 0.25), "velocities are compared");
+}
+
+TEST(Potential, TheTargetsVelocityIsThatOfTheTarget) {
+  const Potential potential = hamner();
+  for (const double phase : {0.0, 0.2, 0.43, 0.9}) {
+    const double step_s = 0.001;
+    const Pose now = potential.target(phase),
+               then = potential.target(phase + step_s / potential.period_s),
+               velocity = potential.target_velocity(phase + 0.5 * step_s / potential.period_s);
+    for (std::size_t i = 0; i < kPoseNumbers; ++i)
+      EXPECT_NEAR(velocity.m[i], (then.m[i] - now.m[i]) / step_s, 1e-3) << i;
+  }
 }
 
 TEST(Potential, ContrastIsWhatAStrideInItsOwnTimeHasOverOneAtAnyOther) {

@@ -58,6 +58,9 @@ class Environment {
   /// The pose of the current state, for the potential.
   virtual Pose pose() const = 0;
 
+  /// How fast its parts move, m/s.
+  virtual Pose pose_velocity() const = 0;
+
   /// Simulated time since reset(), and the measure of the task since then: of a run the distance
   /// that the pelvis covered.
   virtual double time_s() const = 0;

@@ -213,4 +213,20 @@ Pose RunnerEnvironment::pose() const {
   return pose;
 }
 
+Pose RunnerEnvironment::pose_velocity() const {
+  const auto& bodies = kinematics_.bodies;
+  const simulation::RunnerState& state = engine_->state();
+  const auto from_pelvis = [&](int body) {
+    return Eigen::Vector2d(bodies[body].velocity.x - state.u[simulation::kPelvisX],
+                           bodies[body].velocity.y - state.u[simulation::kPelvisY]);
+  };
+  Pose velocity;
+  velocity.pelvis_height_m() = state.u[simulation::kPelvisY];
+  velocity[PosePart::knee_r] = from_pelvis(knee_r_);
+  velocity[PosePart::knee_l] = from_pelvis(knee_l_);
+  velocity[PosePart::foot_r] = from_pelvis(foot_r_);
+  velocity[PosePart::foot_l] = from_pelvis(foot_l_);
+  return velocity;
+}
+
 }  // namespace stride::environment

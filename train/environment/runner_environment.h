@@ -57,6 +57,7 @@ class RunnerEnvironment final : public Environment {
   const Eigen::VectorXd& reset(std::uint64_t seed) override;
   const Step& step(const Eigen::VectorXd& action) override;
   Pose pose() const override;
+  Pose pose_velocity() const override;
   double time_s() const override { return engine_->state().time_s; }
   double distance_m() const override { return task_->measure_m(); }
   double initial_phase() const override { return initial_phase_; }

@@ -20,7 +20,9 @@ double Slot::phase() const {
 }
 
 double Slot::potential() const {
-  return setup_.potential == nullptr ? 0 : (*setup_.potential)(environment_->pose(), phase());
+  if (setup_.potential == nullptr) return 0;
+  return (*setup_.potential)(MovingPose{environment_->pose(), environment_->pose_velocity()},
+                             phase());
 }
 
 void Slot::reset() {

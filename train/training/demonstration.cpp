@@ -122,6 +122,7 @@ Demonstration load_run_demonstration(const TrainOptions& options, const fs::path
   Potential& potential = demonstration.potential.emplace(load_potential(run / shaping.potential));
   potential.weight *= shaping.scale;
   if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
+  potential.velocity_s = shaping.velocity_s;
   if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
   if (!shaping.index.empty()) potential.index = potential_index(shaping.index);
   if (shaping.stride_share > 0) weigh_by_strides(options, potential);

@@ -160,6 +160,8 @@ std::vector<Field> fields(TrainOptions& o) {
       {"shaping.discounted", "F with the agent's discount; false: with 1, which keeps no theorem",
        &o.shaping.discounted},
       {"shaping.epsilon_m", "bounds 1/d; -1: the file's", &o.shaping.epsilon_m, -1},
+      {"shaping.velocity_s", "> 0: velocities are compared as well, 1 m/s as so many metres",
+       &o.shaping.velocity_s, 0},
       {"shaping.function", "empty: the file's", &o.shaping.function, -kInf, kInf,
        names_or_empty(kInverseDistances)},
       {"shaping.index", "empty: the file's", &o.shaping.index, -kInf, kInf,
@@ -338,6 +340,9 @@ void TrainOptions::check() const {
   require(exploration.noise_free_fraction + exploration.parameter_share <= 1,
           "exploration.noise_free_fraction + exploration.parameter_share = {}: must be at most 1",
           exploration.noise_free_fraction + exploration.parameter_share);
+  require(shaping.velocity_s == 0 || run.learner == "ppo",
+          "shaping.velocity_s = {}: only ppo compares velocities: run.learner = {}",
+          shaping.velocity_s, run.learner);
 }
 
 namespace {

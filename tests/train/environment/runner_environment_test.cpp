@@ -259,6 +259,24 @@ TEST_P(Runner, PoseIsRelativeToThePelvis) {
               1e-15);
 }
 
+/// Against the central difference of the pose over two steps of 0.01 s, in the air.
+TEST_P(Runner, PoseVelocityIsTheDerivativeOfThePose) {
+  environment::RunnerEnvironment environment(model_, options());
+  environment.reset(0);
+  const Eigen::VectorXd action = Eigen::VectorXd::Constant(simulation::kMuscles, 0.3);
+  for (int i = 0; i < 30; ++i) environment.step(action);
+  const Pose before = environment.pose();
+  environment.step(action);
+  const Pose velocity = environment.pose_velocity();
+  environment.step(action);
+  const Pose after = environment.pose();
+  for (std::size_t i = 0; i < kPoseNumbers; ++i)
+    EXPECT_NEAR(velocity.m[i], (after.m[i] - before.m[i]) / 0.02,
+                0.02 + 0.02 * std::abs(velocity.m[i]))
+        << i;
+  EXPECT_GT(velocity.row().cwiseAbs().maxCoeff(), 0.1);
+}
+
 TEST(RunnerOptionsAre, CheckedByName) {
   const osim::Model model = osim::load_osim(osim::default_model_file());
   environment::RunnerOptions options;

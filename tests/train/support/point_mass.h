@@ -43,6 +43,7 @@ class PointMass : public environment::Environment {
   Pose pose() const override {
     return {{1 + x_, 0.1 * x_, -0.4, 0.2 * v_, -0.8, -0.1 * x_, -0.4, 0.1, -0.8 + 0.1 * v_}};
   }
+  Pose pose_velocity() const override { return {{v_, 0.1 * v_, 0, 0, 0, -0.1 * v_, 0, 0, 0}}; }
   double time_s() const override { return steps_ * spec_.step_s; }
   double distance_m() const override { return -std::abs(x_); }  // from the goal: higher is better
 
