@@ -46,6 +46,19 @@ std::string shown(std::string_view text) {
   return safe;
 }
 
+/// An empty argument is a variable of a script that was not set; it is not the same as none.
+void refuse_empty_arguments(CLI::App& app) {
+  const CLI::Validator filled(
+      [](std::string& text) {
+        return text.empty() ? std::string("an empty text: give a value, or leave the option out")
+                            : std::string();
+      },
+      "", "");
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected_min() > 0) option->check(filled);
+}
+
 /// What is wrong with the command line, and where to read on.
 int explain(const CLI::App& app, int argc, char** argv, const CLI::ParseError& e) {
   const std::string command = argc > 1 ? argv[1] : "";
@@ -78,6 +91,7 @@ int main(int argc, char** argv) {
     stride::add_shaping_commands(app);
     stride::add_train_commands(app);
     stride::packaging::add_packaging_commands(app, stride::version());
+    refuse_empty_arguments(app);
     if (argc == 1) {
       fmt::print("{}", app.help());
       return 0;

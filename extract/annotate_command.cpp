@@ -273,6 +273,12 @@ void run(AnnotateRequest request) {
     network = points_to_correct(request, frames, journal);
   else if (!request.import_from.empty() || request.pose.wanted)
     import_clicks(request, frames, journal);
+  require(
+      request.import.person == 0 || corrects || request.pose.wanted || !request.import_from.empty(),
+      "--person {}: has no effect without --import or --pose: clicks say who runs",
+      request.import.person);
+  require(request.repair_legs || corrects || request.pose.wanted || !request.import_from.empty(),
+          "--no-leg-repair: has no effect without --import or --pose");
   request.session.corrects = corrects;
   annotation::BackgroundTracker tracker(
       [&](const Keypoints& keypoints, const std::atomic<bool>& given_up) {

@@ -107,6 +107,13 @@ tracking::LabelledClip clicked_or_seen(const TrackRequest& request) {
   options.person = request.import.person;
   options.repair_legs = request.repair_legs;
   options.progress = NetworkProgress();
+  const bool clicked = !tracking::is_seen_by_network(request.video, options);
+  require(!clicked || options.person == 0,
+          "--person {}: has no effect on clicks, which say who runs; with --pose they correct what "
+          "the network sees of that person",
+          options.person);
+  require(!clicked || options.repair_legs || !request.movement.empty(),
+          "--no-leg-repair: has no effect on clicks, whose legs are as they were clicked");
   return tracking::points_of_video(request.video, options);
 }
 
@@ -185,11 +192,7 @@ void run(TrackRequest request) {
   video::DecodeOptions watching;
   watching.progress = show_progress;
   watching.crops = request.track.flow;
-  if (labelled.slow_motion == 1) {
-    const video::VideoInfo info = video::Video(request.video).info();
-    if (const std::string doubt = tracking::doubt_of_header(info); !doubt.empty())
-      fmt::print(stderr, "warning: {}\n", doubt);
-  }
+  tracking::warn_of_header(request.video, labelled.slow_motion);
   const tracking::Tracked tracked =
       tracking::track(request.video, labelled, request.track, watching);
   report(tracked);
@@ -246,9 +249,11 @@ void add_track_command(CLI::App& app) {
                      "a CSV of true points: track from clicks made of it, print the accuracy");
   command.callback([request, &command] {
     require_effect(command, request->import_from, request->pose);
-    for (const char* option : {"--export", "--overlay", "--import", "--pose", "--prior"})
-      require(request->score.empty() || command.count(option) == 0,
-              "{}: has no effect with --score, which prints the accuracy of clicks", option);
+    for (const CLI::Option* option : command.get_options())
+      require(request->score.empty() || option->count() == 0 || !option->nonpositional() ||
+                  option->check_name("--score"),
+              "{}: has no effect with --score, which prints the accuracy of clicks",
+              option->get_name());
     require(request->import_from.empty() || request->keypoints.empty(),
             "--import {} and --keypoints {}: give one of them", request->import_from.string(),
             request->keypoints.string());

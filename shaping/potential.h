@@ -75,6 +75,10 @@ PotentialIndex potential_index(std::string_view name);
 /// Throws Error naming `origin` (a file), key, value and rule if a value is invalid.
 void check(const Potential& potential, const std::string& origin);
 
+/// Throws Error naming `origin` and the value for what no person does: a clip that was refused, a
+/// period, speed or height out of people's range, knees and feet where no leg reaches.
+void require_human(const Potential& potential, const std::string& origin);
+
 /// NAME.potential.json (shaping/README.md has its keys). Errors name file, key, value and rule;
 /// other versions and NaN are refused.
 Potential load_potential(const std::filesystem::path& file);

@@ -123,6 +123,56 @@ void check(const Potential& potential, const std::string& origin) {
   }
 }
 
+namespace {
+
+/// Knees and feet where a leg reaches, most feet below the pelvis.
+void require_legs(const Potential& p, const std::string& origin) {
+  constexpr double kThigh_m[] = {0.2, 0.7}, kShank_m[] = {0.25, 0.85};  // to the toe: longer
+  double feet_m = 0;
+  const auto require_length = [&](const Keyframe& keyframe, const char* what, double length_m,
+                                  const double(&range_m)[2]) {
+    require(length_m > range_m[0] && length_m < range_m[1],
+            "{}: phase {}: {} is {:.3g} m, people's {} to {} m: are keys or axes exchanged, is it "
+            "in m?",
+            origin, keyframe.phase, what, length_m, range_m[0], range_m[1]);
+  };
+  for (const Keyframe& keyframe : p.keyframes)
+    for (const auto& [knee, foot] : {std::pair(PosePart::knee_r, PosePart::foot_r),
+                                     std::pair(PosePart::knee_l, PosePart::foot_l)}) {
+      const Pose& pose = keyframe.pose;
+      require_length(keyframe, "from pelvis to knee", pose[knee].norm(), kThigh_m);
+      require_length(keyframe, "from knee to foot", (pose[foot] - pose[knee]).norm(), kShank_m);
+      feet_m += pose[foot].y() / (2.0 * static_cast<double>(p.keyframes.size()));
+    }
+  require(feet_m < -0.4,
+          "{}: the feet are at y = {:.2f} m from the pelvis on average, people's at -0.6 to -0.9 "
+          "m: y grows upwards",
+          origin, feet_m);
+}
+
+}  // namespace
+
+void require_human(const Potential& p, const std::string& origin) {
+  const double shortest_s = 0.3, longest_s = p.repeats ? 2 : 10;
+  constexpr double kFastest_m_s = 12.5, kBackward_m_s = -1;
+  require(!p.verdict.starts_with("refused"), "{}: the clip behind it was refused ({})", origin,
+          p.verdict);
+  require(p.period_s >= shortest_s && p.period_s <= longest_s,
+          "{}: {} takes {:.2f} s, people's {} to {} s; if the clip plays in slow motion, convert "
+          "it again with --slow-motion",
+          origin, p.repeats ? "a stride" : "the " + p.movement, p.period_s, shortest_s, longest_s);
+  require(!(p.speed_m_s > kFastest_m_s), "{}: {:.1f} m/s is faster than anybody", origin,
+          p.speed_m_s);
+  require(!(p.speed_m_s < kBackward_m_s), "{}: {:.1f} m/s: goes backward", origin, p.speed_m_s);
+  for (const Keyframe& keyframe : p.keyframes) {
+    const double height_m = keyframe.pose.pelvis_height_m();
+    require(height_m > 0.3 && height_m < 1.6,
+            "{}: phase {}: the pelvis is {:.2f} m high, a runner's 0.3 to 1.6 m", origin,
+            keyframe.phase, height_m);
+  }
+  require_legs(p, origin);
+}
+
 Potential load_potential(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string content = read_file(path);

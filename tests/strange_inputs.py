@@ -5,9 +5,10 @@
 
 Names: each command does its work, writes what it should under that name and nothing else, and runs
 nothing. Files of another kind: exit 1 or 2, one sentence that begins with "error:", names the file
-and is no parser's talk; nothing is written. Codecs, turned
-pictures, odd sizes, uneven times (needs ffmpeg): as many frames as were coded, the left knee in its
-place, and what is odd is told.
+and is no parser's talk; nothing is written. The same for files of ours with values that no video,
+runner or person has, and for options that are empty or have no effect. Codecs, turned pictures, odd
+sizes, uneven times (needs ffmpeg): as many frames as were coded, the left knee in its place, and
+what is odd is told.
 --quick takes one name of every odd sign, a fifth of the wrong files, and no codecs.
 """
 import argparse, hashlib, json, math, os, pathlib, shutil, subprocess, sys, tempfile, zipfile
@@ -15,8 +16,8 @@ import argparse, hashlib, json, math, os, pathlib, shutil, subprocess, sys, temp
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 NAMES = ["a b  c", "-o", "über 走る 🏃", "it's \"quoted\"", "`touch RAN`", "$(touch RAN)", "%d %s%n", "a;touch RAN;b",
          "[x]{y}(z)", "#1 & <b>&amp;", "line\nbreak", "a.trajectory", "a.keypoints", "..dots..", "back\\slash",
-         "10:30", "http:x", "a=b,c", "_sub_^sup", "x" * 180, "caf\udce9"]  # the last one in Latin-1
-QUICK = "-`touch RAN`$(touch RAN)'\"%d;&<b>\\_^ü走"
+         "10:30", "http:x", "a=b,c", "_sub_^sup", "''", "it''s", "%04d", ".hidden", "~", "*", "tab\there", "x" * 180, "caf\udce9"]  # the last one in Latin-1
+QUICK = "-`touch RAN`$(touch RAN)''\"%04d;&<b>\\_^ü走"
 TALK = ["terminate called", "what():", "std::", "json.exception", "basic_string", "parse_error", "type_error", "stoi",
         "Assertion", "Sanitizer", "CLI::", "cv::", "OpenCV(", "[ERROR", "Traceback"]
 CODECS = {"hevc.mp4": ["-c:v", "libx265", "-x265-params", "log-level=none"], "vp9.webm": ["-c:v", "libvpx-vp9", "-deadline", "realtime"],
@@ -29,6 +30,9 @@ CODECS = {"hevc.mp4": ["-c:v", "libx265", "-x265-params", "log-level=none"], "vp
           "mjpeg.avi": ["-c:v", "mjpeg", "-q:v", "3"], "msmpeg4.avi": ["-c:v", "msmpeg4", "-q:v", "3"], "utvideo.avi": ["-c:v", "utvideo"],
           "dnxhr.mov": ["-c:v", "dnxhd", "-profile:v", "dnxhr_lb", "-pix_fmt", "yuv422p"], "jpeg2000.mov": ["-c:v", "jpeg2000"],
           "qtrle.mov": ["-c:v", "qtrle"], "mpeg2.ts": ["-c:v", "mpeg2video", "-q:v", "4"], "h263.mkv": ["-c:v", "flv1", "-q:v", "3"],
+          "grey16.mkv": ["-c:v", "ffv1", "-pix_fmt", "gray16le"], "full_range.mp4": ["-c:v", "libx264", "-pix_fmt", "yuvj420p"],
+          "yuv444.mp4": ["-c:v", "libx264", "-pix_fmt", "yuv444p"], "alpha.webm": ["-c:v", "libvpx-vp9", "-pix_fmt", "yuva420p", "-deadline", "realtime"],
+          "stream.h264": ["-c:v", "libx264", "-f", "h264"], "stream.m4v": ["-c:v", "mpeg4", "-q:v", "3", "-f", "m4v"], "stream.y4m": ["-pix_fmt", "yuv420p"],
           "anim.gif": [], "anim.apng": ["-plays", "1"],
           "grey.mp4": ["-c:v", "libx264", "-pix_fmt", "gray"], "alpha.mov": ["-c:v", "prores_ks", "-profile:v", "4444", "-pix_fmt", "yuva444p10le"],
           # What phones, editors and screen recorders do: turned, odd sizes, uneven times, pixels that are not square, sound, a start that is not 0.
@@ -207,7 +211,7 @@ def files(folder, human):
         if what != "a model":
             refuses(home, what, m := as_(".osim"), "calibrate", human, "--model", m)
         refuses(home, what, o := as_(".onnx"), "track", "small.mp4", "--pose", o)
-    for what in ("a folder", "nothing", "a link to itself", "a device"):
+    for what in ("a folder", "nothing", "a link to itself", "a device", "a pipe"):
         for ending, command in ((".mp4", ["track"]), (".mp4", ["convert", "-o", "out"]), (".mp4", ["info"]), (".mp4", ["annotate", "--script", "x"]),
                                 (".trajectory.csv", ["calibrate"]), (".trajectory.csv", ["report"]),
                                 (".potential.json", ["train", "--out", "run", "--potential"]), (".csv", ["track", "small.mp4", "--import"])):
@@ -220,9 +224,107 @@ def files(folder, human):
                 target.symlink_to(target)
             elif what == "a device":
                 target.symlink_to("/dev/null")
+            elif what == "a pipe":
+                os.mkfifo(target)
             refuses(home, what, target.name, *command, target.name)
     if (home / "RAN").exists():
         fault(["files"], "a file was run")
+
+
+def rows(text, change):
+    """A table of ours with its cells changed: change(row number, column names, cells)."""
+    lines = text.split("\n")
+    first = next(i for i, line in enumerate(lines) if not line.startswith("#"))
+    names = lines[first].split(",")
+    for i in range(first + 1, len(lines) - 1):
+        lines[i] = ",".join(map(str, change(i - first - 1, names, lines[i].split(","))))
+    return "\n".join(lines)
+
+
+def cell(text, column, value, row=None):
+    """With one cell, or one of each row, set to value or, if that is a number, multiplied by it."""
+    def change(i, names, cells):
+        k = names.index(column)
+        if row in (None, i):
+            cells[k] = value if isinstance(value, str) else float(cells[k] or 0) * value
+        return cells
+    return rows(text, change)
+
+
+def poses(text, change):
+    """A potential with each pose changed."""
+    potential = json.loads(text)
+    for keyframe in potential["keyframes"]:
+        change(keyframe)
+    return json.dumps(potential)
+
+
+def scaled(keyframe, x, y):
+    for key, value in keyframe.items():
+        if key.endswith("_m") and isinstance(value, list):
+            keyframe[key] = [value[0] * x, value[1] * y]
+
+
+def spoilt(good):
+    """What is wrong with a file of ours, its ending, its text; each is refused."""
+    t, c, p = ((good / f"small{e}").read_text() for e in (".trajectory.csv", ".calibrated.csv", ".potential.json"))
+    def swapped(k):
+        k["knee_r_m"], k["foot_r_m"] = k["foot_r_m"], k["knee_r_m"]
+    def turned(k):
+        for part in ("knee_r_m", "foot_r_m", "knee_l_m", "foot_l_m"):
+            k[part].reverse()
+    lines = t.split("\n")
+    made = [("times in ms", cell(t, "time_s", 1000.0)), ("a frame twice", "\n".join(lines[:20] + lines[19:])),
+            ("times that go back", cell(t, "time_s", "0.1", 40)), ("a point at 1e300", cell(t, "knee_r_x", "1e300", 9)),
+            ("a confidence of 7", cell(t, "knee_r_confidence", "7", 9)), ("half a frame", cell(t, "frame", "3.5", 3)),
+            ("no frames", "\n".join(lines[:lines.index(next(l for l in lines if l.startswith("frame,"))) + 1]) + "\n"),
+            ("a NUL", t.replace("0.25,", "0.2\0005,")), ("treadmill: maybe", t.replace("treadmill: false", "treadmill: maybe")),
+            ("cut off", t[:-90]), ("unit: m", t.replace("unit: px", "unit: m"))]
+    made = [(what, ".trajectory.csv", text) for what, text in made]
+    made += [(what, ".calibrated.csv", text) for what, text in
+             [("angles in degrees", cell(c, "hip_flexion_r", 57.3)), ("a pelvis at 951 m", cell(c, "pelvis_ty", 1000.0)),
+              ("a stride of an hour", c.replace("# period_s: 0", "# period_s: 3600")), ("a speed of a car", c.replace("# speed_m_s: ", "# speed_m_s: 4")),
+              ("a verdict that refuses", c.replace("# verdict: ok", "# verdict: refused: no")), ("rows backward", cell(c, "time_s", -1.0))]]
+    made += [(what, ".potential.json", text) for what, text in
+             [("knee and foot exchanged", poses(p, swapped)), ("x and y exchanged", poses(p, turned)), ("y downward", poses(p, lambda k: scaled(k, 1, -1))),
+              ("half a runner", poses(p, lambda k: scaled(k, 0.5, 0.5))), ("cm", poses(p, lambda k: scaled(k, 100, 100))),
+              ("NaN", p.replace('"phase": 0.125', '"phase": NaN')), ("1e999", p.replace('"weight": 1.0', '"weight": 1e999')),
+              ("words after the end", p + "x"), ("a speed backward", p.replace('"speed_m_s": ', '"speed_m_s": -'))]]
+    return made
+
+
+def own(folder, good):
+    home = folder / "own"
+    home.mkdir()
+    for name in ("small.mp4", "small.keypoints.json"):
+        shutil.copy(SOURCE / "videos" / name, home)
+    command = {".trajectory.csv": ["calibrate"], ".calibrated.csv": ["convert", "-o", "out"],
+               ".potential.json": ["train", "--reference", good / "small.calibrated.csv", "--out", "run", "--decisions", "4", "--potential"]}
+    for what, ending, text in spoilt(good)[::3 if options.quick else 1]:
+        file = home / f"spoilt{ending}"
+        file.write_text(text)
+        refuses(home, what, file.name, *command[ending], file.name)
+        file.unlink()
+    t = (good / "small.trajectory.csv").read_text()
+    german = "\n".join(line if line.startswith("#") else line.replace(",", ";").replace(".", ",") for line in t.split("\n"))
+    for what, data in (("CRLF", t.replace("\n", "\r\n").encode()), ("CR", t.replace("\n", "\r").encode()), ("BOM", t.encode("utf-8-sig")),
+                       ("UTF-16", t.encode("utf-16")), ("as a German Excel", german.encode())):
+        if options.quick and what in ("CR", "BOM", "UTF-16"):
+            continue
+        (home / "other.trajectory.csv").write_bytes(data)
+        status, said = stride(home, "calibrate", "other.trajectory.csv", "--no-picture", "-o", "other.calibrated.csv")
+        if status != 0:
+            fault([what], f"exit {status}", said)
+        for old in home.glob("other.*"):
+            old.unlink()
+    track, run = ["track", "small.mp4"], ["convert", "small.mp4", "-o", "out"]
+    for wrong, arguments in [("--import", [*track, "--import", ""]), ("--keypoints", [*track, "--keypoints", ""]), ("--out", [*track, "-o", ""]),
+                             ("small.mp4", [*track, "small.mp4"]), ("--out", [*track, "-o", "a.csv", "-o", "b.csv"]), ("new/", [*track, "-o", "new/"]),
+                             ("-o -", [*track, "-o", "-"]), (".avi", [*track, "--overlay", "new/a.avi"]), ("255 bytes", [*track, "-o", "x" * 251 + ".csv"]),
+                             ("small.mp4", [*run, "./small.mp4"]), ("--person", [*track, "--person", "2"]), ("--person", [*run, "--person", "2"]),
+                             ("--no-leg-repair", [*track, "--no-leg-repair"]), ("--score", [*track, "--score", "small.truth.csv", "-o", "a.csv"]),
+                             ("empty", ["info", ""]), ("empty", ["report", ""]), ("--slow-motion", [*track, "--slow-motion", "1,5"])][::2 if options.quick else 1]:
+        refuses(home, "options", wrong, *arguments)
 
 
 def points(table):
@@ -271,6 +373,9 @@ def codecs(folder):
         works(home, [f"{stem}.html"], "report", f"{stem}.trajectory.csv", "-o", f"{stem}.html")
         works(home, [f"{stem}.exported.csv", f"{stem}.seen.mp4"], "track", name, "--import", f"{stem}.trajectory.csv", "--export",
               f"{stem}.exported.csv", "--overlay", f"{stem}.seen.mp4")
+        status, said = stride(home, "info", f"{stem}.seen.mp4")
+        if "96 frames in 4" not in said and "96 frames in 3.9" not in said and stem not in ("uneven", "mpeg1"):
+            fault(["track", name, "--overlay"], "does not last as long as the video", said)
         works(home, [f"{stem}.again.csv"], "track", name, "--prior", f"{stem}.trajectory.csv", "-o", f"{stem}.again.csv")
         shutil.rmtree(home / "out", ignore_errors=True)
         for old in home.glob(f"{stem}.*"):
@@ -291,6 +396,8 @@ def main():
             names(folder, [QUICK] if options.quick else NAMES)
         if options.only in (None, "files"):
             files(folder, str(good / "small.trajectory.csv"))
+        if options.only in (None, "own"):
+            own(folder, good)
         if options.only in (None, "codecs") and not options.quick:
             codecs(folder)
     print(f"{runs} runs, {len(faults)} faults")
@@ -300,6 +407,6 @@ def main():
 parser = argparse.ArgumentParser()
 parser.add_argument("stride", type=os.path.abspath)
 parser.add_argument("--quick", action="store_true"), parser.add_argument("--verbose", action="store_true")
-parser.add_argument("--only", choices=["names", "files", "codecs"]), parser.add_argument("--codec", help="only those whose names hold this")
+parser.add_argument("--only", choices=["names", "files", "own", "codecs"]), parser.add_argument("--codec", help="only those whose names hold this")
 options = parser.parse_args()
 main()

@@ -44,8 +44,10 @@ double median_length(const Trajectory& trajectory, BodyPart a, BodyPart b) {
 void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
   constexpr std::size_t kLeastFrames = 8;
   const std::size_t frames = trajectory.frames.size();
-  if (frames < kLeastFrames)
+  if (frames < kLeastFrames) {
     verdict.refuse(fmt::format("{} frames: at least {} are needed", frames, kLeastFrames));
+    return;
+  }
   for (const BodyPart part : kRequiredParts) {
     const auto seen = std::ranges::count_if(
         trajectory.frames, [&](const TrajectoryFrame& frame) { return frame[part].present(); });

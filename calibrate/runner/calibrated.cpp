@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
@@ -43,6 +45,22 @@ void visit_cells(Sample& sample, const std::vector<BodyPart>& parts, Visit visit
     visit(fmt::format("{}_y", name(part)), p.y());
     visit(fmt::format("{}_x_sd", name(part)), sd.x());
     visit(fmt::format("{}_y_sd", name(part)), sd.y());
+  }
+}
+
+/// Angles in rad, the pelvis at a height that a runner reaches.
+void require_coordinates(const CalibratedSample& sample, const std::string& where) {
+  constexpr double kMost_rad = 2 * std::numbers::pi, kLowest_m = -1, kHighest_m = 5;
+  for (std::size_t i = 0; i < kCoordinateNames.size(); ++i) {
+    const std::string_view name = kCoordinateNames[i];
+    const double value = sample.coordinates[i];
+    if (name == "pelvis_ty")
+      require(value >= kLowest_m && value <= kHighest_m,
+              "{}: {} = {:.6g}: must be the pelvis' height above the ground in m", where, name,
+              value);
+    else if (name != "pelvis_tx")
+      require(std::abs(value) <= kMost_rad, "{}: {} = {:.6g}: must be in rad, within a turn", where,
+              name, value);
   }
 }
 
@@ -96,6 +114,7 @@ CalibratedTrajectory load_calibrated(const std::filesystem::path& file) {
     require(i == 0 || sample.time_s > run.samples[i - 1].time_s,
             "{}: row {}: time_s = {}: must grow from row to row", file.string(), i + 1,
             sample.time_s);
+    require_coordinates(sample, fmt::format("{}: row {}", file.string(), i + 1));
   }
   require(run.samples.size() >= 2, "{}: {} rows: at least one stride is needed", file.string(),
           run.samples.size());

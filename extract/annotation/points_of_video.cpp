@@ -86,13 +86,29 @@ LabelledClip mixed(LabelledClip network, const LabelledClip& clicks) {
   return result;
 }
 
+namespace {
+
+fs::path clicks_file(const fs::path& video, const PointsOptions& options) {
+  return options.keypoints.empty() ? keypoints_file_of(video) : options.keypoints;
+}
+
+bool is_clicked(const fs::path& video, const PointsOptions& options) {
+  return !options.keypoints.empty() || fs::exists(clicks_file(video, options));
+}
+
+}  // namespace
+
+bool is_seen_by_network(const fs::path& video, const PointsOptions& options) {
+  return options.network || !is_clicked(video, options) ||
+         load_keypoints(clicks_file(video, options)).corrects_network;
+}
+
 LabelledClip points_of_video(const fs::path& video, const PointsOptions& options) {
   video::require_video_file(video);
-  const fs::path file = options.keypoints.empty() ? keypoints_file_of(video) : options.keypoints;
+  const fs::path file = clicks_file(video, options);
   annotation::fold_left_over_journal(file);
-  const bool clicked = fs::exists(file) || !options.keypoints.empty();
-  const bool network = options.network || (clicked && load_keypoints(file).corrects_network);
-  if (clicked && !network) return clicks_on(video, file, options.slow_motion);
+  const bool clicked = is_clicked(video, options);
+  if (!is_seen_by_network(video, options)) return clicks_on(video, file, options.slow_motion);
   require(options.network || pose::installed_weights().has_value(),
           "{}: {}; click points with 'stride annotate {}', import them with 'stride track "
           "--import', or "

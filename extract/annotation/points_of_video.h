@@ -23,6 +23,9 @@ struct PointsOptions {
 /// there are neither clicks nor a network, and as clicks_on() and network_points() do.
 LabelledClip points_of_video(const std::filesystem::path& video, const PointsOptions& options);
 
+/// Whether points_of_video() asks the network: there are no clicks, or they correct it.
+bool is_seen_by_network(const std::filesystem::path& video, const PointsOptions& options);
+
 /// The pose network's points on a video, without a click.
 LabelledClip points_of_network(const std::filesystem::path& video, const PointsOptions& options);
 

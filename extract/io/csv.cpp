@@ -110,6 +110,11 @@ std::string decoded_text(std::string_view content, const std::string& file) {
 
 TextTable read_text_table(std::string_view content, const std::string& file, char separator) {
   const std::string text = decoded_text(content, file);
+  if (const auto nul = text.find('\0'); nul != text.npos)
+    throw Error(
+        fmt::format("{}: {}: a NUL, as no text has: the file is damaged, or UTF-16 without "
+                    "its mark at the beginning",
+                    file, place_of_byte(text, nul)));
   const bool is_told = separator != 0;
   TextTable table;
   int number = 0;

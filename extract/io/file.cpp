@@ -22,6 +22,7 @@ namespace {
 std::ifstream open_for_reading(const fs::path& file) {
   require(fs::exists(file), "{}: no such file", file.string());
   require(!fs::is_directory(file), "{}: is a folder, a file is needed", file.string());
+  require(!fs::is_fifo(file), "{}: is a pipe, a file is needed", file.string());
   std::ifstream in(file, std::ios::binary);
   require(in.good(), "{}: cannot be read ({})", file.string(), std::strerror(errno));
   return in;

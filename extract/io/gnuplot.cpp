@@ -63,8 +63,10 @@ int spawned(std::FILE* in, std::FILE* out, std::FILE* complaints,
 std::string gnuplot_string(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) {
-    if (c == '\'') quoted += '\'';
-    quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    if (c == '\'')
+      quoted += R"('."'".')";  // a doubled one is misread beside another, and at the beginning
+    else
+      quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
   return quoted + "'";
 }

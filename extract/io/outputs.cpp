@@ -1,5 +1,7 @@
 #include "extract/io/outputs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -109,8 +111,40 @@ FileKind kind_of_text(std::string_view head) {
 bool is_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
-  return fs::weakly_canonical(fs::absolute(a), error) ==
-         fs::weakly_canonical(fs::absolute(b), error);
+  const auto place = [&](const fs::path& file) {
+    const fs::path found = fs::weakly_canonical(fs::absolute(file), error);
+    return error ? fs::absolute(file).lexically_normal() : found;  // as a name that is too long
+  };
+  return place(a) == place(b);
+}
+
+/// The folder that exists, in which those that are missing would be made.
+fs::path nearest_folder(const fs::path& file) {
+  fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  std::error_code error;
+  while (folder.has_relative_path() && !fs::exists(folder, error)) folder = folder.parent_path();
+  return folder;
+}
+
+/// What can be told of a name before there is anything to write.
+void check_name(const Output& output) {
+  const std::string name = output.file.filename().string();
+  require(!name.empty(), "{} {}: is a folder: name a file in it", output.option,
+          output.file.string());
+  require(output.file != "-", "{} -: is not the standard output here: name a file (./- is one)",
+          output.option);
+  constexpr std::size_t kLongest = 240;  // of 255 bytes: unfinished files have longer names
+  require(name.size() <= kLongest, "{} {}: the name has {} bytes, at most {} can be written",
+          output.option, output.file.string(), name.size(), kLongest);
+  std::error_code error;
+  const fs::path folder = nearest_folder(output.file);
+  require(!fs::is_directory(folder, error) || fs::is_other(output.file, error) ||
+              ::access(folder.c_str(), W_OK | X_OK) == 0,
+          "{} {}: cannot be written: {} is not yours to write in", output.option,
+          output.file.string(), folder.string());
+  require(output.kind != FileKind::video || output.file.extension() == ".mp4",
+          "{} {}: videos are written as .mp4; change the name", output.option,
+          output.file.string());
 }
 
 bool is_regular(const fs::path& file) {
@@ -146,6 +180,7 @@ FileKind kind_of(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return FileKind::missing;
   std::ifstream in(file, std::ios::binary);
+  if (!in.good()) return FileKind::unreadable;
   std::string head(kHead, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
@@ -186,6 +221,8 @@ void require_plain_text(const fs::path& file, std::string_view what) {
 
 std::string_view name(FileKind kind) {
   switch (kind) {
+    case FileKind::unreadable:
+      return "a file that you may not read";
     case FileKind::missing:
       return "no file";
     case FileKind::empty:
@@ -267,6 +304,7 @@ void check_outputs(const std::vector<fs::path>& inputs, const std::vector<Output
       require(other->file.empty() || !is_same(output->file, other->file),
               "{} {} and {}: are one file: choose another name", output->option,
               output->file.string(), other->option);
+    if (output->kind != FileKind::missing) check_name(*output);
     require(output->kind == FileKind::missing || !fs::is_directory(output->file),
             "{} {}: is a folder: name a file in it", output->option, output->file.string());
     const FileKind there = kind_of(output->file);

@@ -41,7 +41,8 @@ enum class FileKind {
   json,
   utf16,
   text,
-  binary
+  binary,
+  unreadable
 };
 
 FileKind kind_of(const std::filesystem::path& file);
@@ -68,8 +69,8 @@ struct Output {
 
 /// To be called before a command does anything: nothing that a user has may be lost. Throws Error
 /// if an output is one of the inputs (by whatever name), lies in the way of another output, or
-/// would replace an existing file that is not of its kind. Empty paths are left out; an input may
-/// be a folder, whose files are then inputs.
+/// would replace an existing file that is not of its kind, or has a name that cannot be written.
+/// Empty paths are left out; an input may be a folder, whose files are then inputs.
 void check_outputs(const std::vector<std::filesystem::path>& inputs,
                    const std::vector<Output>& outputs);
 

@@ -21,6 +21,30 @@ int whole(double value, const std::string& what) {
   return static_cast<int>(value);
 }
 
+/// What no trajectory of a video has: hand-made files, and tables of others with our names.
+void check(const Trajectory& trajectory, const std::string& file) {
+  require(!trajectory.frames.empty(), "{}: has no frames", file);
+  constexpr double kMost = 25;  // between slow motion and a mistaken unit
+  const TrajectoryFrame &first = trajectory.frames.front(), &last = trajectory.frames.back();
+  if (trajectory.frames.size() > 1) {
+    const double frame_s = (last.time_s - first.time_s) / std::max(last.frame - first.frame, 1);
+    require(frame_s * trajectory.rate_hz < kMost && frame_s * trajectory.rate_hz > 1 / kMost,
+            "{}: time_s grows by {:.4g} from frame to frame, rate_hz = {:.4g}: times must be in s",
+            file, frame_s, trajectory.rate_hz);
+  }
+  constexpr double kFarthest_px = 1e6;
+  for (const TrajectoryFrame& frame : trajectory.frames)
+    for (const BodyPart part : kBodyParts) {
+      const Point& point = frame[part];
+      require(!(point.p_px.cwiseAbs().maxCoeff() > kFarthest_px),
+              "{}: frame {}: {} = ({:.4g}, {:.4g}): lies in no picture", file, frame.frame,
+              name(part), point.p_px.x(), point.p_px.y());
+      require(point.confidence >= 0 && point.confidence <= 1 + 1e-6,
+              "{}: frame {}: {}_confidence = {}: must be in [0, 1]", file, frame.frame, name(part),
+              point.confidence);
+    }
+}
+
 CalibrationLine line_in(const std::string& text, const std::string& what) {
   std::istringstream words(text);
   double frame = -1;
@@ -71,7 +95,12 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
             frame.time_s);
     previous_s = frame.time_s;
   }
-  if (table.has_meta("treadmill")) trajectory.treadmill = table.meta("treadmill") == "true";
+  if (table.has_meta("treadmill")) {
+    const std::string& said = table.meta("treadmill");
+    require(said == "true" || said == "false", "{}: treadmill = {}: must be true or false",
+            file.string(), said);
+    trajectory.treadmill = said == "true";
+  }
   if (table.has_column("camera_x")) {
     const std::size_t x = table.column("camera_x"), y = table.column("camera_y"),
                       residual = table.column("camera_residual");
@@ -96,6 +125,7 @@ Trajectory load_trajectory(const std::filesystem::path& file) {
               trajectory.frames[i].frame, prefix);
     }
   }
+  check(trajectory, file.string());
   return trajectory;
 }
 

@@ -82,7 +82,8 @@ struct Trajectory {
 
 /// NAME.trajectory.csv: `# stride trajectory 1`, unit px, columns frame, time_s, <part>_x,
 /// <part>_y, <part>_confidence, and camera_x, camera_y, camera_residual where known. Errors name
-/// the file, and the cure where the file is a calibrated trajectory instead.
+/// the file, and the cure where the file is a calibrated trajectory instead. Times that are not in
+/// s, points in no picture and confidences outside [0, 1] are errors too.
 Trajectory load_trajectory(const std::filesystem::path& file);
 void save(const Trajectory& trajectory, const std::filesystem::path& file);
 

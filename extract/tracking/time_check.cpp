@@ -64,4 +64,10 @@ std::string doubt_of_header(const video::VideoInfo& info) {
   return rates + (rates.empty() || edits.empty() ? "" : "; ") + edits;
 }
 
+void warn_of_header(const std::filesystem::path& video, double slow_motion) {
+  if (slow_motion != 1) return;
+  if (const std::string doubt = doubt_of_header(video::Video(video).info()); !doubt.empty())
+    fmt::print(stderr, "{}: warning: {}\n", video.string(), doubt);
+}
+
 }  // namespace stride::tracking

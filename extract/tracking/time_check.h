@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,5 +30,9 @@ std::string doubt_of_edits(const std::vector<video::Edit>& edits);
 
 /// What a video's header says of its time: its rates and its edit list. Empty if nothing is odd.
 std::string doubt_of_header(const video::VideoInfo& info);
+
+/// Says on stderr what doubt_of_header() says of a video whose runner moves in real time
+/// (`slow_motion` is 1), as nobody else has.
+void warn_of_header(const std::filesystem::path& video, double slow_motion);
 
 }  // namespace stride::tracking

@@ -1,6 +1,7 @@
 #include "extract/video/edit_list.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <cstdint>
@@ -120,10 +121,9 @@ std::vector<Edit> read_edits(const std::filesystem::path& file) { return edits_i
 
 std::string text_of(const std::vector<Edit>& edits) {
   constexpr double kDelay_s = 0.1, kGap_s = 0.02;
-  std::string text;
-  const auto add = [&](const std::string& sentence) {
-    text += (text.empty() ? "" : "; ") + sentence;
-  };
+  constexpr std::size_t kTold = 3;
+  std::vector<std::string> sentences;
+  const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
   double played_s = 0, end_s = kNothing;
   for (const Edit& edit : edits) {
     if (std::isnan(edit.from_s)) {
@@ -142,7 +142,11 @@ std::string text_of(const std::vector<Edit>& edits) {
     }
     played_s += edit.lasts_s;
   }
-  return text;
+  const std::size_t told = sentences.size() > kTold + 1 ? kTold : sentences.size();
+  return fmt::format("{}{}", fmt::join(sentences.begin(), sentences.begin() + told, "; "),
+                     told < sentences.size()
+                         ? fmt::format("; and {} more of the kind", sentences.size() - told)
+                         : "");
 }
 
 }  // namespace stride::video

@@ -21,7 +21,8 @@ std::vector<Edit> edits_in(std::string_view moov);
 /// Of a file; empty for other formats.
 std::vector<Edit> read_edits(const std::filesystem::path& file);
 
-/// What players make of the recording, where that is more than its plain course; else empty.
+/// What players make of the recording, where that is more than its plain course; else empty. Of
+/// many pieces the first three are told, and how many more there are.
 std::string text_of(const std::vector<Edit>& edits);
 
 }  // namespace stride::video

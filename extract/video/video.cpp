@@ -45,6 +45,19 @@ bool is_mp4_without_index(const fs::path& file) {
   return !first;
 }
 
+/// Not the unit of the times, which streams without a container announce.
+bool is_rate(double rate_hz) { return rate_hz > 0 && rate_hz < 1e5; }
+
+/// By the first two frames; 30 where they do not tell.
+double first_rate_hz(const fs::path& file) {
+  cv::VideoCapture capture(ffmpeg_name(file), cv::CAP_FFMPEG);
+  double times_ms[2] = {};
+  for (double& time_ms : times_ms)
+    if (capture.grab()) time_ms = capture.get(cv::CAP_PROP_POS_MSEC);
+  const double rate_hz = 1000 / (times_ms[1] - times_ms[0]);
+  return is_rate(rate_hz) ? rate_hz : 30;
+}
+
 /// Upright, in memory of its own.
 cv::Mat turned(const cv::Mat& stored, const Turn& turn) {
   cv::Mat image;
@@ -80,6 +93,7 @@ void require_file(const fs::path& file) {
   }
   if (fs::exists(file, error)) {
     require(fs::is_regular_file(file), "{}: is not a file, a video is needed", name);
+    require(kind_of(file) != FileKind::unreadable, "{}: is a file that you may not read", name);
     return;
   }
   require(name.find("://") == name.npos,
@@ -179,7 +193,7 @@ Video::Video(const fs::path& file, double slow_motion) : decoder_(std::make_uniq
   d.info.width_px = static_cast<int>(std::lround(first.cols * aspect));
   d.info.height_px = first.rows;
   const double announced_hz = d.capture.get(cv::CAP_PROP_FPS);
-  const double rate_hz = std::isfinite(announced_hz) && announced_hz > 0 ? announced_hz : 30;
+  const double rate_hz = is_rate(announced_hz) ? announced_hz : first_rate_hz(file);
   d.info.rate_hz = rate_hz * slow_motion;
   d.step_s = 1 / rate_hz;
   const double count = d.capture.get(cv::CAP_PROP_FRAME_COUNT);

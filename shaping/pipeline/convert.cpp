@@ -38,11 +38,6 @@ bool ends_with(const fs::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
 }
 
-/// Whether it is for the decoder to try: anything but our tables.
-bool is_video(const fs::path& file) {
-  return !ends_with(file, kTrajectory) && !ends_with(file, kCalibrated);
-}
-
 /// Why a file of a folder is no input; empty if it is one.
 std::string left_out(const fs::path& file) {
   const FileKind kind = kind_of(file);
@@ -81,9 +76,10 @@ class Clip {
     if (is_video(input_)) annotation::fold_left_over_journal(keypoints_file_of(input_));
     const std::string stamp = fingerprint();
     if (!options_.again && is_done(stamp)) return result_;
-    const CalibratedTrajectory run =
-        ends_with(input_, kCalibrated) ? loaded() : calibrated(tracked());
-    save(make_potential(run, clip_.keyframes, input_.string()), out(".potential.json"));
+    const CalibratedTrajectory run = is_calibrated(input_) ? loaded() : calibrated(tracked());
+    const Potential potential = make_potential(run, clip_.keyframes, input_.string());
+    if (!clip_.force) require_human(potential, input_.string());
+    save(potential, out(".potential.json"));
     if (!result_.points.empty()) say_whose_points(out(".potential.json"), result_.points);
     write_stamp(stamp);
     return result_;
@@ -112,7 +108,7 @@ class Clip {
     check_outputs({input_, keypoints_file_of(input_), options_.model},
                   {{"-o", is_loop() ? out(kLoop) : fs::path(), FileKind::video},
                    {"-o", own(kTrajectory, !is_video(input_)), FileKind::trajectory},
-                   {"-o", own(kCalibrated, ends_with(input_, kCalibrated)), FileKind::calibrated},
+                   {"-o", own(kCalibrated, is_calibrated(input_)), FileKind::calibrated},
                    {"-o", out(".report.txt"), FileKind::report},
                    {"-o", out(".report.svg"), FileKind::svg},
                    {"-o", out(".potential.json"), FileKind::potential},
@@ -158,10 +154,7 @@ class Clip {
     tracking::LabelledClip labelled = tracking::points_of_video(input_, points);
     if (!clip_.movement.empty()) labelled.marks.movement = clip_.movement;
     result_.points = labelled.points;
-    if (labelled.slow_motion == 1)
-      if (const std::string doubt = tracking::doubt_of_header(video::Video(input_).info());
-          !doubt.empty())
-        fmt::print(stderr, "{}: warning: {}\n", input_.string(), doubt);
+    tracking::warn_of_header(input_, labelled.slow_motion);
     Trajectory trajectory = tracking::track(input_, labelled).trajectory;
     save(trajectory, out(kTrajectory));
     if (options_.overlay) video::write_overlay(input_, trajectory, out(kOverlay));
@@ -197,8 +190,8 @@ class Clip {
 
   bool is_done(const std::string& stamp) {
     if (!fs::exists(out(kStamp)) || !fs::exists(out(".potential.json"))) return false;
-    if (!ends_with(input_, kCalibrated) && !fs::exists(out(kCalibrated))) return false;
-    const bool drawn = ends_with(input_, kCalibrated) || fs::exists(out(".report.svg")) ||
+    if (!is_calibrated(input_) && !fs::exists(out(kCalibrated))) return false;
+    const bool drawn = is_calibrated(input_) || fs::exists(out(".report.svg")) ||
                        !load_potential(out(".potential.json")).repeats;
     if (options_.pictures && !drawn) return false;
     if (options_.overlay && is_video(input_) && !fs::exists(out(kOverlay))) return false;
@@ -246,6 +239,12 @@ class Clip {
 };
 
 }  // namespace
+
+bool is_calibrated(const fs::path& input) { return ends_with(input, kCalibrated); }
+
+bool is_video(const fs::path& input) {
+  return !ends_with(input, kTrajectory) && !is_calibrated(input);
+}
 
 std::string clip_name(const fs::path& input) {
   for (const char* ending : {kTrajectory, kCalibrated}) {

@@ -61,6 +61,12 @@ std::vector<std::filesystem::path> expand_inputs(
     const std::vector<std::filesystem::path>& given,
     const std::function<void(const std::string&)>& tell = {});
 
+/// Whether an input is for the decoder to try: neither a trajectory nor a calibrated run.
+bool is_video(const std::filesystem::path& input);
+
+/// Whether an input is a NAME.calibrated.csv.
+bool is_calibrated(const std::filesystem::path& input);
+
 /// NAME of an input.
 std::string clip_name(const std::filesystem::path& input);
 

@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
 
+#include "extract/annotation/points_of_video.h"
 #include "extract/commands/direction_option.h"
 #include "extract/io/error.h"
 #include "extract/io/option_range.h"
@@ -23,7 +25,30 @@ struct ConvertCommand {
   bool no_pictures = false, asymmetric = false;
 };
 
-void run(ConvertCommand command) {
+/// Throws Error if an option was given that none of the inputs heeds.
+void require_effect(const CLI::App& command, const std::vector<std::filesystem::path>& inputs,
+                    const pipeline::ConvertOptions& options) {
+  const auto require_any = [&](std::initializer_list<const char*> names, const auto& heeds,
+                               const char* who) {
+    for (const char* name : names)
+      require(command.count(name) == 0 || std::ranges::any_of(inputs, heeds),
+              "{}: has no effect on {}: it is for {}", name,
+              inputs.size() == 1 ? inputs[0].string() : "any of the inputs", who);
+  };
+  require_any({"--height", "--leg", "--scale", "--direction", "--movement"},
+              std::not_fn(pipeline::is_calibrated), "videos and trajectories");
+  require_any({"--slow-motion", "--loop", "--pose", "--overlay"}, pipeline::is_video, "videos");
+  tracking::PointsOptions points;
+  points.network = options.network;
+  require_any(
+      {"--person"},
+      [&](const std::filesystem::path& input) {
+        return pipeline::is_video(input) && tracking::is_seen_by_network(input, points);
+      },
+      "videos that the pose network sees: without clicks, or with --pose");
+}
+
+void run(const CLI::App& app, ConvertCommand command) {
   pipeline::ConvertOptions& options = command.options;
   KeyframeOptions& keyframes = options.clip.keyframes;
   keyframes.function = inverse_distance(command.function);
@@ -36,6 +61,7 @@ void run(ConvertCommand command) {
   options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
 
   const auto inputs = pipeline::expand_inputs(command.inputs, options.progress);
+  require_effect(app, inputs, options);
   for (const auto& [name, settings] : options.by_clip)
     if (std::ranges::find(inputs, name, pipeline::clip_name) == inputs.end())
       options.progress(fmt::format("not used: {}: [clip.{}]: no input has that name",
@@ -129,7 +155,7 @@ void add_convert_command(CLI::App& app) {
   convert->add_flag("--no-pictures", command->no_pictures, "do not draw NAME.report.svg");
   convert->add_flag("--again", options.again, "convert also what has not changed");
   convert->add_flag("--force", clip.force, "convert clips that were refused, where there is a fit");
-  convert->callback([command] { run(*command); });
+  convert->callback([command, convert] { run(*convert, *command); });
 }
 
 }  // namespace stride

@@ -190,7 +190,9 @@ std::string about(const fs::path& file) {
   if (file.extension() == ".osim") return about_model(osim::load_osim(file));
   if (file.extension() == ".json") return about_json(file);
   const FileKind kind = kind_of(file);
-  if (kind == FileKind::video) return about_video(file);
+  // A stream without a container has no first bytes to be told by: the decoder is tried.
+  if (kind == FileKind::video || (kind == FileKind::binary && file.extension() != ".csv"))
+    return about_video(file);
   if (kind == FileKind::image || kind == FileKind::svg) return fmt::format("{}\n", name(kind));
   if (kind == FileKind::report || kind == FileKind::motion || kind == FileKind::trc ||
       kind == FileKind::gnuplot_script || kind == FileKind::plot_data)

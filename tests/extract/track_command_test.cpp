@@ -80,6 +80,15 @@ TEST(TrackCommand, SaysWhatIsWrong) {
     EXPECT_ERROR(run(fmt::format("track {}/human.mp4 {}", here, option)), "has no effect without");
   EXPECT_ERROR(run("track " + here + "/human.mp4 --export " + here + "/a.docx"),
                "a.docx: format 'docx' cannot be written");
+  write_file_atomically(folder / "human.keypoints.json",
+                        read_file(kVideos / "human.keypoints.json"));
+  for (const char* option : {"--person 2", "--no-leg-repair"})
+    EXPECT_ERROR(run(fmt::format("track {}/human.mp4 {}", here, option)),
+                 "has no effect on clicks");
+  for (const char* option : {"-o a.csv", "--person 2", "--no-flow", "--slow-motion 2"})
+    EXPECT_ERROR(
+        run(fmt::format("track {0}/human.mp4 --score {0}/human.truth.csv {1}", here, option)),
+        "has no effect with --score");
   std::string clicks = read_file(kVideos / "human.keypoints.json");
   clicks.replace(clicks.find("\"video_sha256\": \"") + 17, 4, "ffff");
   write_file_atomically(folder / "human.keypoints.json", clicks);

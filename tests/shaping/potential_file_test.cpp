@@ -69,6 +69,44 @@ TEST(PotentialFile, NamesWhatIsWrongInAnotherFile) {
   EXPECT_ERROR(load(with(hamner_text(), "\"weight\"", "\"wieght\"")), "weight is missing");
 }
 
+TEST(PotentialFile, TellsWhatNoPersonDoes) {
+  const Potential hamner = load_potential(STRIDE_TEST_DATA "/hamner.potential.json");
+  require_human(hamner, "p.json");
+  const auto spoilt = [&](const auto& spoil) {
+    Potential potential = hamner;
+    spoil(potential);
+    require_human(potential, "p.json");
+  };
+  const auto each = [&](const auto& spoil) {
+    spoilt([&](Potential& p) {
+      for (Keyframe& keyframe : p.keyframes) spoil(keyframe.pose);
+    });
+  };
+  EXPECT_ERROR(each([](Pose& pose) {
+                 const Eigen::Vector2d knee = pose[PosePart::knee_r];
+                 pose[PosePart::knee_r] = pose[PosePart::foot_r];
+                 pose[PosePart::foot_r] = knee;
+               }),
+               "from pelvis to knee is");
+  EXPECT_ERROR(each([](Pose& pose) {
+                 for (const PosePart part :
+                      {PosePart::knee_r, PosePart::foot_r, PosePart::knee_l, PosePart::foot_l})
+                   pose[part].reverseInPlace();
+               }),
+               "y grows upwards");
+  EXPECT_ERROR(each([](Pose& pose) {
+                 for (std::size_t i = 1; i < pose.m.size(); ++i) pose.m[i] *= -1;
+               }),
+               "the feet are at y = 0.70 m from the pelvis");
+  EXPECT_ERROR(each([](Pose& pose) {
+                 for (double& m : pose.m) m *= 0.5;
+               }),
+               "is it in m?");
+  EXPECT_ERROR(spoilt([](Potential& p) { p.keyframes[2].pose[PosePart::foot_l].x() = 1e300; }),
+               "from knee to foot is 1e+300 m");
+  EXPECT_ERROR(spoilt([](Potential& p) { p.speed_m_s = -3; }), "goes backward");
+}
+
 TEST(PotentialFile, RefusesToWriteWhatItWouldNotRead) {
   const TemporaryFolder folder;
   Potential potential = load_potential(STRIDE_TEST_DATA "/hamner.potential.json");

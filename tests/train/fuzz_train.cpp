@@ -22,6 +22,8 @@
 #include "train/training/options.h"
 
 namespace stride {
+using namespace network;
+using namespace training;
 namespace {
 
 namespace fs = std::filesystem;

@@ -27,35 +27,6 @@ void require_movement(const std::string& name, const std::string& of_task,
       wanted.repeats ? "repeats" : "has a beginning and an end");
 }
 
-/// A movement of so long that ends before the time of its task is up.
-void require_a_passage(const Potential& p, const std::string& file) {
-  constexpr double kShortest_s = 0.3, kLongest_s = 10;
-  require(p.period_s >= kShortest_s && p.period_s <= kLongest_s,
-          "{}: the {} takes {:.2f} s, people's {} to {} s; if the clip plays in slow motion, "
-          "convert it again with --slow-motion",
-          file, p.movement, p.period_s, kShortest_s, kLongest_s);
-}
-
-/// What no runner does cannot be learned from.
-void require_a_run(const Potential& p, const std::string& file) {
-  constexpr double kShortest_s = 0.3, kLongest_s = 2, kFastest_m_s = 12.5;
-  require(!p.verdict.starts_with("refused"), "{}: the clip behind it was refused ({})", file,
-          p.verdict);
-  if (!p.repeats) require_a_passage(p, file);
-  require(!p.repeats || (p.period_s >= kShortest_s && p.period_s <= kLongest_s),
-          "{}: a stride takes {:.2f} s, runners' {} to {} s; if the clip plays in slow motion, "
-          "convert it again with --slow-motion",
-          file, p.period_s, kShortest_s, kLongest_s);
-  require(!(p.speed_m_s > kFastest_m_s), "{}: {:.1f} m/s is faster than anybody", file,
-          p.speed_m_s);
-  for (const Keyframe& keyframe : p.keyframes) {
-    const double height_m = keyframe.pose.pelvis_height_m();
-    require(height_m > 0.3 && height_m < 1.6,
-            "{}: phase {}: the pelvis is {:.2f} m high, a runner's 0.3 to 1.6 m", file,
-            keyframe.phase, height_m);
-  }
-}
-
 void require_model(const Potential& p, const std::string& file, const std::string& model_file) {
   const osim::Model model =
       osim::load_osim(model_file.empty() ? osim::default_model_file() : fs::path(model_file));
@@ -85,7 +56,7 @@ Demonstration load_demonstration(const fs::path& potential, const fs::path& refe
   Demonstration demonstration;
   if (!potential.empty()) {
     demonstration.potential = load_potential(potential);
-    require_a_run(*demonstration.potential, potential.string());
+    require_human(*demonstration.potential, potential.string());
     require_movement(demonstration.potential->movement, options.task.movement, potential.string());
     require_model(*demonstration.potential, potential.string(), options.model);
   }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "extract/io/error.h"
@@ -15,9 +16,13 @@ template <typename T>
 T read_scalar(std::string_view bytes, std::size_t at) {
   require(at <= bytes.size() && sizeof(T) <= bytes.size() - at,
           "damaged: a value at byte {} lies past the end, {}", at, bytes.size());
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof(T));
-  return value;
+  if constexpr (std::is_same_v<T, bool>) {
+    return bytes[at] != 0;  // a damaged one is neither 0 nor 1
+  } else {
+    T value;
+    std::memcpy(&value, bytes.data() + at, sizeof(T));
+    return value;
+  }
 }
 
 class FlatTable;

@@ -82,6 +82,15 @@ TEST(Calibrated, NamesRowColumnAndValueOfABadCell) {
   run.period_s = -1;
   save(run, folder / "a.csv");
   EXPECT_ERROR(load_calibrated(folder / "a.csv"), "period_s = -1: must be positive");
+  run = two_samples();
+  run.samples[0].coordinates[3] = 19.6;  // degrees
+  save(run, folder / "a.csv");
+  EXPECT_ERROR(load_calibrated(folder / "a.csv"),
+               "row 1: hip_flexion_r = 19.6: must be in rad, within a turn");
+  run = two_samples();
+  run.samples[1].coordinates[2] = 951;  // mm
+  save(run, folder / "a.csv");
+  EXPECT_ERROR(load_calibrated(folder / "a.csv"), "row 2: pelvis_ty = 951: must be the pelvis'");
   write_file_atomically(folder / "b.csv", "garbage\n");
   EXPECT_ERROR(load_calibrated(folder / "b.csv"), "b.csv: not a file of ours");
 }

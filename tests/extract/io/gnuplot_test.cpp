@@ -15,15 +15,16 @@ namespace {
 TEST(Gnuplot, PrintsAnyTextAsItIsAndRunsNothingInIt) {
   const TemporaryFolder folder;
   for (const std::string text :
-       {"run`touch ran`.mp4", "run$(touch ran).mp4", "O'Brien's", "a\"b\\n", "; touch ran",
-        "%s%n@macro", "| touch ran", "<touch ran", "un_der^score{}", "Zoë 走る"})
+       {"run`touch ran`.mp4", "run$(touch ran).mp4", "O'Brien's", "'", "''a''", "a'''; touch ran;'",
+        "a\"b\\n", "; touch ran", "%s%n@macro", "| touch ran", "<touch ran", "un_der^score{}",
+        "Zoë 走る"})
     EXPECT_EQ(run_gnuplot("set print '-'\nprint " + gnuplot_string(text), folder.path()),
               text + "\n");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Gnuplot, TakesNoLineEndForTheEndOfATitle) {
-  EXPECT_EQ(gnuplot_string("a\nsystem 'touch ran'\r"), "'a system ''touch ran'' '");
+  EXPECT_EQ(gnuplot_string("a\nsystem 'touch ran'\r"), R"('a system '."'".'touch ran'."'".' ')");
 }
 
 TEST(Gnuplot, WritesToAFileWhoseNameLooksLikeACommand) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
@@ -90,6 +91,29 @@ TEST_F(Outputs, ReplaceOnlyFilesOfTheirKind) {
                "there is a file of clicks of that name, and a trajectory in pixels would replace");
   EXPECT_ERROR(check_outputs({}, {{"-o", folder_.path(), FileKind::trajectory}}),
                "is a folder: name a file in it");
+}
+
+TEST_F(Outputs, HaveNamesThatCanBeWritten) {
+  const auto check = [&](const fs::path& file, FileKind kind) {
+    check_outputs({folder_ / (std::string(251, 'v') + ".mp4")}, {{"-o", file, kind}});
+  };
+  check(folder_ / (std::string(236, 'x') + ".csv"), FileKind::trajectory);
+  EXPECT_ERROR(check(folder_ / (std::string(251, 'x') + ".csv"), FileKind::trajectory),
+               "the name has 255 bytes, at most 240 can be written");
+  EXPECT_ERROR(check(folder_ / "new/", FileKind::trajectory), "new/: is a folder");
+  EXPECT_ERROR(check("-", FileKind::trajectory), "-o -: is not the standard output");
+  EXPECT_ERROR(check(folder_ / "a.avi", FileKind::video), "videos are written as .mp4");
+}
+
+TEST_F(Outputs, GoWhereTheUserMayWrite) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::permissions(folder_.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_ERROR(check_outputs({}, {{"-o", folder_ / "new/deep/a.csv", FileKind::trajectory}}),
+               "is not yours to write in");
+  fs::permissions(folder_.path(), fs::perms::owner_all);
+  check_outputs({}, {{"-o", folder_ / "new/deep/a.csv", FileKind::trajectory}});
+  fs::permissions(folder_ / "run.mp4", fs::perms::owner_write);
+  EXPECT_EQ(kind_of(folder_ / "run.mp4"), FileKind::unreadable);
 }
 
 TEST_F(Outputs, AreDifferentFiles) {

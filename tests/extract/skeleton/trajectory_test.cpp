@@ -62,13 +62,26 @@ TEST(Trajectory, RefusesSizesAndFramesThatAreNoWholeNumbers) {
   EXPECT_ERROR(load("640", "3,inf"), "frame 3: time_s = inf: must grow");
 }
 
-TEST(Trajectory, RefusesADirectionThatIsNone) {
+TEST(Trajectory, RefusesWhatNoVideoHas) {
   const TemporaryFolder folder;
-  write_file_atomically(folder / "t.csv",
-                        "# stride trajectory 1\n# unit: px\n# video: a\n# video_sha256: 0\n"
-                        "# width_px: 9\n# height_px: 9\n# rate_hz: 30\n# direction: Left\n"
-                        "frame,time_s\n3,0.1\n");
-  EXPECT_ERROR(load_trajectory(folder / "t.csv"), "direction = Left: must be right or left");
+  const auto load = [&](const std::string& direction, const std::string& rows) {
+    write_file_atomically(folder / "t.csv",
+                          "# stride trajectory 1\n# unit: px\n# video: a\n# video_sha256: 0\n"
+                          "# width_px: 9\n# height_px: 9\n# rate_hz: 30\n# direction: " +
+                              direction + "\nframe,time_s,knee_r_x,knee_r_y,knee_r_confidence\n" +
+                              rows);
+    return load_trajectory(folder / "t.csv");
+  };
+  EXPECT_EQ(load("left", "0,0,1,2,1\n1,0.03,1,2,0\n").frames.size(), 2u);
+  EXPECT_ERROR(load("Left", "0,0,1,2,1\n"), "direction = Left: must be right or left");
+  EXPECT_ERROR(load("\n# treadmill: maybe", "0,0,1,2,1\n"), "treadmill = maybe: must be true or");
+  EXPECT_ERROR(load("", ""), "t.csv: has no frames");
+  EXPECT_ERROR(load("", "0,0,1,2,1\n1,33.3,1,2,1\n"), "time_s grows by 33.3 from frame to frame");
+  EXPECT_ERROR(load("", "0,0,1,2,1\n1,1e-5,1,2,1\n"), "times must be in s");
+  EXPECT_ERROR(load("", "0,0,1,2e9,1\n"), "frame 0: knee_r = (1, 2e+09): lies in no picture");
+  EXPECT_ERROR(load("", "0,0,1,2,7\n"), "knee_r_confidence = 7: must be in [0, 1]");
+  EXPECT_ERROR(load("", "0,0,1,2,-1\n"), "knee_r_confidence = -1: must be in [0, 1]");
+  EXPECT_ERROR(load("", std::string("0,0,1\0,2,1\n", 12)), "t.csv: line 10, column 6: a NUL");
 }
 
 }  // namespace

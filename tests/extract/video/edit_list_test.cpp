@@ -75,6 +75,15 @@ TEST(EditList, TellsWhatPlayersMakeOfTheTime) {
   EXPECT_EQ(text_of(edits_in(moov({{0.5, 0}, {2, 0.5, 0}}))), "one picture stands for 2 s");
 }
 
+TEST(EditList, OfManyPiecesTellsTheFirst) {
+  std::vector<Entry> pieces;
+  for (int i = 0; i < 157; ++i) pieces.push_back({3.2, 0});
+  EXPECT_EQ(text_of(edits_in(moov(pieces))),
+            "a cut at 3.2 s, from 3.2 s of the recording to 0 s; "
+            "a cut at 6.4 s, from 3.2 s of the recording to 0 s; "
+            "a cut at 9.6 s, from 3.2 s of the recording to 0 s; and 153 more of the kind");
+}
+
 TEST(EditList, IsToldWithACure) {
   using tracking::doubt_of_edits;
   EXPECT_THAT(doubt_of_edits(edits_in(moov({{4, 0, 0.25}}))), HasSubstr("-ignore_editlist 1"));

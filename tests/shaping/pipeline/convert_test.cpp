@@ -190,6 +190,21 @@ TEST(Convert, OneFailureStopsNoOther) {
   EXPECT_THAT(pipeline::table_of(results), testing::HasSubstr("failed: "));
 }
 
+TEST(Convert, RefusesACalibratedRunThatNobodyRuns) {
+  const TemporaryFolder folder;
+  put_human(folder);
+  pipeline::convert({folder / "human.trajectory.csv"}, into(folder));
+  std::string run = read_file(folder / "out" / "human.calibrated.csv");
+  const auto begin = run.find("# period_s: "), end = run.find('\n', begin);
+  run.replace(begin, end - begin, "# period_s: 1e9");
+  write_file_atomically(folder / "slow.calibrated.csv", run);
+  pipeline::ConvertOptions options = into(folder);
+  EXPECT_THAT(pipeline::convert({folder / "slow.calibrated.csv"}, options)[0].verdict,
+              testing::HasSubstr("a stride takes 1000000000.00 s"));
+  options.clip.force = true;
+  EXPECT_FALSE(pipeline::convert({folder / "slow.calibrated.csv"}, options)[0].failed);
+}
+
 TEST(Convert, NamesAFileThatItCannotUse) {
   const TemporaryFolder folder;
   write_file_atomically(folder / "a.txt", "x");

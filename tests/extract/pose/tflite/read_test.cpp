@@ -198,6 +198,18 @@ TEST(TfliteReader, ResizesWithHalfPixelCentres) {
               }));
 }
 
+TEST(TfliteReader, TakesAnyByteButZeroForTrue) {
+  const auto resized = [](std::uint8_t half_pixel_centres) {
+    TfliteWriter writer;
+    const int in = writer.tensor("in", {1, 3, 4, 2}), size = writer.integers("size", {6, 8}, {2}),
+              out = writer.tensor("out", {1, 6, 8, 2});
+    writer.operation(kResize, {in, size}, out, FlatData().scalar(3, half_pixel_centres));
+    return read_tflite(writer.file({in}, {out})).nodes.size();
+  };
+  EXPECT_EQ(resized(248), 1U);
+  EXPECT_THROW(resized(0), Error);
+}
+
 TEST(TfliteReader, PoolsAndSquashes) {
   const Tensor input = random_tensor({1, 4, 6, 2}, 11);
   TfliteWriter writer;
