@@ -90,6 +90,22 @@ TEST(Documents, LinksLeadToFilesAndHeadings) {
   }
 }
 
+/// A preset that names a suite of an older name would leave it out without a word.
+TEST(Documents, PresetsRunSuitesThatExist) {
+  std::string tests;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+    if (entry.path().extension() == ".cpp") tests += read(entry.path());
+  const std::string presets = read(kRoot / "CMakePresets.json");
+  const std::regex filter("\"include\": \\{\"name\": \"\\^\\(([^)]*)\\)"), word("\\w+");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(presets, found, filter));
+  const std::string names = found[1];
+  for (auto name = std::sregex_iterator(names.begin(), names.end(), word);
+       name != std::sregex_iterator(); ++name)
+    EXPECT_TRUE(std::regex_search(tests, std::regex("TEST(_F|_P)?\\(" + name->str() + ",")))
+        << name->str();
+}
+
 TEST(Documents, NumbersOfTheFirstPageAreOnThePageOfClaims) {
   const std::string readme = read(kRoot / "README.md");
   const std::string claims = read(kRoot / "tests/bench/BENCHMARK.md");

@@ -49,6 +49,7 @@ TEST(Toml, TextsReadBackAsTheSame) {
 TEST(Toml, ErrorsNameTheLine) {
   EXPECT_ERROR(parse_toml("a = 1\nb = half\n", "f.toml"), "f.toml:2: not TOML");
   EXPECT_ERROR(parse_toml("a = 1\n\na = 2\n", "f.toml"), "f.toml:3: not TOML");
+  EXPECT_ERROR(parse_toml("a = 1\n[ = 2\n", "f.toml"), "f.toml:2: not TOML");
   EXPECT_ERROR(parse_toml("a = 1\nday = 2026-01-02\n", "f.toml"), "f.toml:2: must be a number");
   EXPECT_ERROR(parse_toml("a = [[1], 2]\n", "f.toml"), "f.toml:1: must be a number");
 }
