@@ -78,7 +78,8 @@ class Clip {
     if (!options_.again && is_done(stamp)) return result_;
     const CalibratedTrajectory run = is_calibrated(input_) ? loaded() : calibrated(tracked());
     const Potential potential = make_potential(run, clip_.keyframes, input_.string());
-    if (!clip_.force) require_human(potential, input_.string());
+    if (is_calibrated(input_) && !clip_.force)  // of others the verdict tells
+      require_human(potential, input_.string());
     save(potential, out(".potential.json"));
     if (!result_.points.empty()) say_whose_points(out(".potential.json"), result_.points);
     write_stamp(stamp);
