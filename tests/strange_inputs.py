@@ -193,8 +193,8 @@ def files(folder, human):
             return f"wrong{ending}"
         refuses(home, what, v := as_(".mp4"), "track", v, "--keypoints", "small.keypoints.json")
         refuses(home, what, v, "convert", v, "-o", "out")
-        refuses(home, what, v, "annotate", v, "--script", "none.jsonl")
-        if what not in ("jpeg",):  # told as the picture it is
+        if what not in ("jpeg",):  # a picture, which info tells, and a clip of one frame, which can be clicked
+            refuses(home, what, v, "annotate", v, "--script", "none.jsonl")
             refuses(home, what, v, "info", v)
         refuses(home, what, v, "report", human, "--video", v)
         refuses(home, what, k := as_(".keypoints.json"), "track", "small.mp4", "--keypoints", k)
