@@ -16,6 +16,6 @@ endforeach()
 set(script "")
 foreach(suite IN LISTS suites)
   string(APPEND script "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-         "set_tests_properties([=[${suite}]=] PROPERTIES COST ${tests_of_${suite}} WORKING_DIRECTORY [=[${FOLDER}]=])\n")
+         "set_tests_properties([=[${suite}]=] PROPERTIES LABELS suite COST ${tests_of_${suite}} WORKING_DIRECTORY [=[${FOLDER}]=])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${script}")
