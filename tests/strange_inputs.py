@@ -81,7 +81,7 @@ def sha(path):
 def clicked(video, source="small", width=320, height=180):
     """The clip's clicks beside a video, however it is coded."""
     clicks = json.loads((SOURCE / "videos" / f"{source}.keypoints.json").read_text())
-    clicks["video"], clicks["video_sha256"] = video.name, sha(video)
+    clicks["video"], clicks["video_sha256"] = printable(video.name), sha(video)
     clicks["width_px"], clicks["height_px"] = width, height
     file = video.with_suffix(".keypoints.json") if video.suffix else pathlib.Path(str(video) + ".keypoints.json")
     file.write_text(json.dumps(clicks))
