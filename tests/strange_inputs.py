@@ -168,7 +168,7 @@ def refuses(folder, what, file, *arguments, writes=None):
     last = [line for line in said.strip().split("\n") if line.startswith("error:")]
     if not last:
         fault([what, "as", *arguments], "no line begins with 'error:'", said)
-    elif str(file) not in said:
+    elif os.fsencode(str(file)).decode(errors="replace") not in said:
         fault([what, "as", *arguments], f"does not name {file}", said)
     elif len(said) > 1500:
         fault([what, "as", *arguments], f"says {len(said)} letters", said)
