@@ -34,6 +34,31 @@ std::size_t letter_bytes(std::string_view text) {
   return none ? 0 : count;
 }
 
+/// The line of the first letter outside ASCII that is in neither quotes nor a comment; 0: none.
+int line_of_bare_letter(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the byte order mark
+  int line = 1;
+  std::string_view end;  // of the text in quotes or of the comment; empty: in neither
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    if (rest[0] == '\n') ++line;
+    if (end.empty()) {
+      if (static_cast<unsigned char>(rest[0]) >= 0x80) return line;
+      for (const std::string_view begin : {"\"", "'", "\"\"\"", "'''"})
+        if (rest.starts_with(begin)) end = begin;
+      if (!end.empty()) i += end.size() - 1;
+      if (rest[0] == '#') end = "\n";
+    } else if (rest[0] == '\\' && end[0] == '"') {
+      if (rest.substr(1).starts_with('\n')) ++line;
+      ++i;
+    } else if (rest.starts_with(end) || (rest[0] == '\n' && end.size() == 1)) {
+      i += end.size() - 1;
+      end = {};
+    }
+  }
+  return 0;
+}
+
 /// A value as text: numbers as the shortest that reads back as the same.
 std::string word_of(const toml::node& node, const std::string& source) {
   if (const auto* text = node.as_string()) return text->get();
@@ -75,6 +100,9 @@ std::vector<TomlSetting> load_toml(const std::filesystem::path& file) {
 }
 
 std::vector<TomlSetting> parse_toml(const std::string& text, const std::string& source) {
+  // toml++ 3.3 has no answer to "is it a space" for most of these.
+  const int line = line_of_bare_letter(text);
+  require(line == 0, "{}:{}: not TOML: a letter outside ASCII must be in quotes", source, line);
   std::vector<TomlSetting> settings;
   try {
     add_settings(toml::parse(text), {}, source, settings);

@@ -46,6 +46,19 @@ TEST(Toml, TextsReadBackAsTheSame) {
   EXPECT_EQ(parse_toml("x = " + toml_text("caf\xe9.mp4"), "x")[0].words[0], "caf\xef\xbf\xbd.mp4");
 }
 
+TEST(Toml, LettersOutsideAsciiAreInQuotesOrComments) {
+  const auto settings = parse_toml(
+      "\xef\xbb\xbf# größe \"\n\"größe\" = 'lé' # \ufe7f '\nx = \"a\\\"\ufe7f\"\n"
+      "y = '''\n走'''\nz = \"\" # ü\n",
+      "x");
+  ASSERT_EQ(settings.size(), 4U);
+  EXPECT_EQ(settings[0].name, "größe");
+  EXPECT_EQ(settings[1].words[0], "a\"\ufe7f");
+  for (const char* bare : {"größe = 1", "a\ufe7fb = 1", "a = 1 \u3000", "[clip.ü]"})
+    EXPECT_ERROR(parse_toml(std::string("x = 'a'\n") + bare, "s.toml"),
+                 "s.toml:2: not TOML: a letter outside ASCII must be in quotes");
+}
+
 TEST(Toml, ErrorsNameTheLine) {
   EXPECT_ERROR(parse_toml("a = 1\nb = half\n", "f.toml"), "f.toml:2: not TOML");
   EXPECT_ERROR(parse_toml("a = 1\n\na = 2\n", "f.toml"), "f.toml:3: not TOML");
