@@ -8,19 +8,7 @@ mkdir -p "$runs"
 reference=$runs/fast.calibrated.csv
 [ -e "$reference" ] || $stride evaluate train/agents/stride --no-film --out "$runs" --trajectory "$reference"
 
-from=
-# NAME DECISIONS OPTION…: one stage, from the one before.
-stage() {
-  run=$runs/$1 decisions=$2
-  shift 2
-  if [ -e "$run/config.toml" ]; then
-    $stride train --resume "$run" --decisions "$decisions"
-  else
-    $stride train --baseline --reference "$reference" ${from:+--from "$from"} --seed "$seed" \
-      --decisions "$decisions" --out "$run" "$@"
-  fi
-  from=$run
-}
+. train/results/competition/stage.sh
 
 # Few obstacles, half of the environments start on the fast agent's run.
 rules="--preset ppo --set reward.backward_knees=0 --set environment.rules=nips2017 --set environment.difficulty=2
