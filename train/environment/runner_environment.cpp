@@ -197,36 +197,26 @@ const Step& RunnerEnvironment::step(const Eigen::VectorXd& action) {
   return step_;
 }
 
-Pose RunnerEnvironment::pose() const {
-  const auto& bodies = kinematics_.bodies;
-  const simulation::RunnerState& state = engine_->state();
-  const auto from_pelvis = [&](int body) {
-    return Eigen::Vector2d(bodies[body].position.x - state.q[simulation::kPelvisX],
-                           bodies[body].position.y - state.q[simulation::kPelvisY]);
+Pose RunnerEnvironment::from_pelvis(simulation::PlanarVector Frame::*what,
+                                    const Coordinates& pelvis) const {
+  const auto relative = [&](int body) {
+    const simulation::PlanarVector& part = kinematics_.bodies[body].*what;
+    return Eigen::Vector2d(part.x - pelvis[simulation::kPelvisX],
+                           part.y - pelvis[simulation::kPelvisY]);
   };
   Pose pose;
-  pose.pelvis_height_m() = state.q[simulation::kPelvisY];
-  pose[PosePart::knee_r] = from_pelvis(knee_r_);
-  pose[PosePart::knee_l] = from_pelvis(knee_l_);
-  pose[PosePart::foot_r] = from_pelvis(foot_r_);
-  pose[PosePart::foot_l] = from_pelvis(foot_l_);
+  pose.pelvis_height_m() = pelvis[simulation::kPelvisY];
+  pose[PosePart::knee_r] = relative(knee_r_);
+  pose[PosePart::knee_l] = relative(knee_l_);
+  pose[PosePart::foot_r] = relative(foot_r_);
+  pose[PosePart::foot_l] = relative(foot_l_);
   return pose;
 }
 
+Pose RunnerEnvironment::pose() const { return from_pelvis(&Frame::position, engine_->state().q); }
+
 Pose RunnerEnvironment::pose_velocity() const {
-  const auto& bodies = kinematics_.bodies;
-  const simulation::RunnerState& state = engine_->state();
-  const auto from_pelvis = [&](int body) {
-    return Eigen::Vector2d(bodies[body].velocity.x - state.u[simulation::kPelvisX],
-                           bodies[body].velocity.y - state.u[simulation::kPelvisY]);
-  };
-  Pose velocity;
-  velocity.pelvis_height_m() = state.u[simulation::kPelvisY];
-  velocity[PosePart::knee_r] = from_pelvis(knee_r_);
-  velocity[PosePart::knee_l] = from_pelvis(knee_l_);
-  velocity[PosePart::foot_r] = from_pelvis(foot_r_);
-  velocity[PosePart::foot_l] = from_pelvis(foot_l_);
-  return velocity;
+  return from_pelvis(&Frame::velocity, engine_->state().u);
 }
 
 }  // namespace stride::environment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <random>
@@ -82,6 +83,12 @@ class RunnerEnvironment final : public Environment {
   void start_on_reference(std::mt19937_64& random);
   void observe();
   void thin_out(std::mt19937_64& random);
+
+  using Frame = simulation::RunnerKinematics::Frame;
+  using Coordinates = std::array<double, simulation::kCoordinates>;
+
+  /// Places or velocities of the pose's parts less the pelvis', of which `pelvis` is q or u.
+  Pose from_pelvis(simulation::PlanarVector Frame::*what, const Coordinates& pelvis) const;
 
   RunnerOptions options_;
   EnvironmentSpec spec_;
