@@ -132,9 +132,9 @@ Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body
   return magnification * p;
 }
 
-/// The same of a heel.
+/// The same of a heel whose place on the foot is known.
 template <typename T>
-Vector2<T> place_heel(BodyPart part, const Directions& directions, const T* body, const T* sides,
+Vector2<T> place_part(BodyPart part, const Directions& directions, const T* body, const T* sides,
                       const T& tilt, const LegAngles<T>& leg, const T& phase, const T* heel) {
   const T foot_angle = tilt + leg.hip + leg.knee + leg.ankle,
           magnification = 1.0 + double(side_of(part)) * sides[sides::depth];

@@ -20,6 +20,10 @@ inline constexpr int kSizeOf =
 template <int... kSizes>
 struct Others {};
 
+/// A block of so many parameters, as a residual takes it.
+template <typename T, int kSize>
+using Block = const T*;
+
 /// What a residual depends on, in the order of its arguments: blocks of the runner, then others.
 template <int kResiduals, typename Others, auto... kBlocks>
 struct Blocks;

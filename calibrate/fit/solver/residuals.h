@@ -10,11 +10,13 @@ namespace stride::fit {
 /// A marked point z of a part in the frame at u:
 ///   r = (p + e^{s + ṡu} R(ρ) q(φ(u)) − z) / σ
 /// with the pelvis p of this frame in the image, px per metre e^s and its drift ṡ, the roll ρ, and
-/// the part q of the runner from the pelvis. Two residuals.
-struct PointResidual {
-  using DependsOn =
-      Blocks<2, Others<2>, &Runner::camera, &Runner::cadence, &Runner::body, &Runner::sides,
-             &Runner::tilt, &Runner::hip, &Runner::knee, &Runner::ankle, &Runner::asymmetry>;
+/// the part q of the runner from the pelvis. Two residuals. The place of a heel on the foot is
+/// unknown: one block more, of size `kHeel`.
+template <int... kHeel>
+struct PartResidual {
+  using DependsOn = Blocks<2, Others<2, kHeel...>, &Runner::camera, &Runner::cadence, &Runner::body,
+                           &Runner::sides, &Runner::tilt, &Runner::hip, &Runner::knee,
+                           &Runner::ankle, &Runner::asymmetry>;
 
   BodyPart part;
   Directions directions;
@@ -26,66 +28,30 @@ struct PointResidual {
   template <typename T>
   bool operator()(const T* camera, const T* cadence, const T* body, const T* sides, const T* tilt,
                   const T* hip, const T* knee, const T* ankle, const T* asymmetry,
-                  const T* pelvis_px, T* r) const {
+                  const T* pelvis_px, Block<T, kHeel>... heel, T* r) const {
     const T phase = phase_at(cadence, u_s);
     const auto leg =
         leg_angles(hip, knee, ankle, asymmetry, harmonics, side_of(part) < 0 ? -1 : 1, phase);
     at_pose(camera, body, sides, evaluate_series(tilt, kTiltHarmonics, phase), leg, phase,
-            pelvis_px, r);
+            pelvis_px, heel..., r);
     return true;
   }
 
   /// The same for given phase and angles.
   template <typename T>
   void at_pose(const T* camera, const T* body, const T* sides, const T& tilt,
-               const LegAngles<T>& leg, const T& phase, const T* pelvis_px, T* r) const {
-    using std::exp;
-    const Vector2<T> q = place_part(part, directions, body, sides, tilt, leg, phase);
-    const T scale = exp(camera[camera::log_px_per_m] + camera[camera::drift_per_s] * u_s);
-    const Vector2<T> offset = scale * turned(camera[camera::roll], q);
-    r[0] = (pelvis_px[0] + offset.x() - z_px.x()) / sigma_px;
-    r[1] = (pelvis_px[1] + offset.y() - z_px.y()) / sigma_px;
-  }
-};
-
-/// The same of a heel, whose place on the foot is unknown.
-struct HeelResidual {
-  using DependsOn = Blocks<2, Others<2, heel::size>, &Runner::camera, &Runner::cadence,
-                           &Runner::body, &Runner::sides, &Runner::tilt, &Runner::hip,
-                           &Runner::knee, &Runner::ankle, &Runner::asymmetry>;
-
-  BodyPart part;
-  Directions directions;
-  int harmonics;
-  double u_s;
-  Eigen::Vector2d z_px;
-  double sigma_px;
-
-  template <typename T>
-  bool operator()(const T* camera, const T* cadence, const T* body, const T* sides, const T* tilt,
-                  const T* hip, const T* knee, const T* ankle, const T* asymmetry,
-                  const T* pelvis_px, const T* heel, T* r) const {
-    const T phase = phase_at(cadence, u_s);
-    const auto leg =
-        leg_angles(hip, knee, ankle, asymmetry, harmonics, side_of(part) < 0 ? -1 : 1, phase);
-    at_pose(camera, body, sides, evaluate_series(tilt, kTiltHarmonics, phase), leg, phase,
-            pelvis_px, heel, r);
-    return true;
-  }
-
-  /// The same for given phase and angles.
-  template <typename T>
-  void at_pose(const T* camera, const T* body, const T* sides, const T& tilt,
-               const LegAngles<T>& leg, const T& phase, const T* pelvis_px, const T* heel,
+               const LegAngles<T>& leg, const T& phase, const T* pelvis_px, Block<T, kHeel>... heel,
                T* r) const {
     using std::exp;
-    const Vector2<T> q = place_heel(part, directions, body, sides, tilt, leg, phase, heel);
+    const Vector2<T> q = place_part(part, directions, body, sides, tilt, leg, phase, heel...);
     const T scale = exp(camera[camera::log_px_per_m] + camera[camera::drift_per_s] * u_s);
     const Vector2<T> offset = scale * turned(camera[camera::roll], q);
     r[0] = (pelvis_px[0] + offset.x() - z_px.x()) / sigma_px;
     r[1] = (pelvis_px[1] + offset.y() - z_px.y()) / sigma_px;
   }
 };
+using PointResidual = PartResidual<>;
+using HeelResidual = PartResidual<heel::size>;
 
 /// The marked pelvis itself: r = (p − z) / σ.
 struct PelvisResidual {

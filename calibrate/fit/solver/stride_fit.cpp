@@ -29,7 +29,7 @@ Eigen::Vector2d about_pelvis_px(const StrideFit& fit, const Directions& directio
                               fit.harmonics, side_of(part) < 0 ? -1 : 1, phase);
   const double tilt = evaluate_series(r.tilt.data(), kTiltHarmonics, phase);
   const Eigen::Vector2d q =
-      is_heel(part) ? place_heel(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase,
+      is_heel(part) ? place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase,
                                  fit.heel.data())
                     : place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase);
   const double scale =
