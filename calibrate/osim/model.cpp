@@ -21,13 +21,18 @@ int Model::body(std::string_view wanted) const { return index_of(bodies, wanted)
 int Model::coordinate(std::string_view wanted) const { return index_of(coordinates, wanted); }
 int Model::muscle(std::string_view wanted) const { return index_of(muscles, wanted); }
 
+double Model::mass_kg() const {
+  double mass = 0;
+  for (const Body& body : bodies) mass += body.mass_kg;
+  return mass;
+}
+
 std::string describe(const Model& model) {
   std::string text = fmt::format(
       "OpenSim model {}: {} bodies, {} coordinates, {} muscles, {} contact spheres\n", model.name,
       model.bodies.size(), model.coordinates.size(), model.muscles.size(), model.spheres.size());
-  double mass = 0;
-  for (const Body& body : model.bodies) mass += body.mass_kg;
-  text += fmt::format("mass {:.4g} kg, gravity {:.6g} m/s²\n\n", mass, -model.gravity_m_s2[1]);
+  text += fmt::format("mass {:.4g} kg, gravity {:.6g} m/s²\n\n", model.mass_kg(),
+                      -model.gravity_m_s2[1]);
   for (const Coordinate& each : model.coordinates)
     text += fmt::format("  {:<18} default {:8.4f} {}{}\n", each.name, each.default_value,
                         each.rotational ? "rad" : "m", each.locked ? ", locked" : "");

@@ -143,6 +143,9 @@ struct Model {
   int body(std::string_view name) const;
   int coordinate(std::string_view name) const;
   int muscle(std::string_view name) const;
+
+  /// Of all bodies.
+  double mass_kg() const;
 };
 
 /// Reads an OpenSim model, document versions 30000 (joints inside bodies) and 40000 (sockets and

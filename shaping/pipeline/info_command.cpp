@@ -16,6 +16,7 @@
 #include "extract/io/toml.h"
 #include "extract/skeleton/keypoints.h"
 #include "extract/skeleton/trajectory.h"
+#include "extract/skeleton/units.h"
 #include "extract/tracking/time_check.h"
 #include "extract/video/video.h"
 #include "shaping/commands.h"
@@ -91,16 +92,15 @@ std::string about_calibrated(const CalibratedTrajectory& c) {
       "{:.2f} m/s\nscale     {:.3f} mm per pixel, roll {:.2f} deg\nfit       {:.2f} "
       "px rms, {:.1f} cm\nsamples   {}\n",
       one_line(c.source), c.model, c.movement, c.verdict, c.period_s, c.period_sd_s,
-      duration_s / c.period_s, c.speed_m_s, 1000 * c.metres_per_pixel,
-      c.camera_roll_rad * 180 / M_PI, c.rms_px, 100 * c.rms_m, c.samples.size());
+      duration_s / c.period_s, c.speed_m_s, 1000 * c.metres_per_pixel, c.camera_roll_rad / kDegree,
+      c.rms_px, 100 * c.rms_m, c.samples.size());
 }
 
 std::string about_model(const osim::Model& m) {
-  double mass = 0;
-  for (const osim::Body& body : m.bodies) mass += body.mass_kg;
   std::string text = fmt::format(
       "OpenSim model {}: {} bodies of {:.3f} kg, {} coordinates, {} muscles, {} contact spheres\n",
-      m.name, m.bodies.size(), mass, m.coordinates.size(), m.muscles.size(), m.spheres.size());
+      m.name, m.bodies.size(), m.mass_kg(), m.coordinates.size(), m.muscles.size(),
+      m.spheres.size());
   for (const osim::Coordinate& c : m.coordinates)
     text += fmt::format("  {:<18} {:8.3f} ({:.3f} to {:.3f}){}\n", c.name, c.default_value,
                         c.range_min, c.range_max, c.locked ? " locked" : "");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibrate/runner/phase_bins.h"
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
 
@@ -30,21 +31,10 @@ Imitation::Imitation(const CalibratedTrajectory& clip, const ImitationOptions& o
   require(options.reward_per_s >= 0 && options.angle_deg > 0 && options.end_deg >= 0,
           "imitation: reward_per_s and end_deg must be at least 0, angle_deg above 0");
   require(period_s_ > 0, "{}: its period is not known, imitation needs it", clip.source);
-  std::array<Knot, kBins> bins{};
-  std::array<int, kBins> count{};
-  for (const CalibratedSample& sample : clip.samples) {
-    const auto bin =
-        static_cast<std::size_t>(std::clamp(static_cast<int>(sample.phase * kBins), 0, kBins - 1));
-    bins[bin].phase += sample.phase;
-    for (std::size_t k = 0; k < kAngles.size(); ++k)
-      bins[bin].angle[k] += sample.coordinates[kAngles[k]];
-    ++count[bin];
-  }
-  for (std::size_t i = 0; i < kBins; ++i) {
-    if (count[i] == 0) continue;
-    Knot knot = bins[i];
-    knot.phase /= count[i];
-    for (double& angle : knot.angle) angle /= count[i];
+  for (const PhaseBin& bin : phase_bins(clip, kBins)) {
+    if (bin.count == 0) continue;
+    Knot knot{.phase = bin.phase};
+    for (std::size_t k = 0; k < kAngles.size(); ++k) knot.angle[k] = bin.mean[kAngles[k]];
     knots_.push_back(knot);
   }
   require(knots_.size() >= 3, "{}: too short to be imitated", clip.source);

@@ -5,10 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include "train/task/task.h"
+
 namespace stride::rollout {
 namespace {
 
-constexpr double kBearing = 0.05;  // of the body's weight
 constexpr double kShortestContact_s = 0.03;
 constexpr double kShortestSwing_s = 0.1;  // no foot swings forward in less
 
@@ -33,14 +34,10 @@ void remove_short_runs(std::vector<bool>& values, bool value, std::size_t shorte
 
 }  // namespace
 
-double weight_N(const osim::Model& model) {
-  double mass = 0;
-  for (const osim::Body& body : model.bodies) mass += body.mass_kg;
-  return -mass * model.gravity_m_s2[1];
-}
+double weight_N(const osim::Model& model) { return -model.mass_kg() * model.gravity_m_s2[1]; }
 
 std::vector<FootContact> foot_contacts(const Rollout& rollout, const osim::Model& model) {
-  const double threshold = kBearing * weight_N(model);
+  const double threshold = task::bearing_N(model);
   const std::array<int, 2> ankle{model.body("talus_r"), model.body("talus_l")};
   const auto& frames = rollout.frames;
   const double step_s = frames.size() > 1 ? frames[1].state.time_s - frames[0].state.time_s : 0.01;
@@ -112,13 +109,13 @@ GaitSummary gait_of(const Rollout& rollout, const osim::Model& model) {
   gait.duty_factor = mean(duties);
   gait.leg_phase = mean(leg_phases);
 
-  const double weight = weight_N(model);
+  const double weight = weight_N(model), bearing = task::bearing_N(model);
   double flight = 0;
   for (const RolloutFrame& frame : frames) {
     const auto& force = frame.kinematics.ground_reaction_N;
     const double vertical = force[0].y + force[1].y;
     gait.peak_ground_force_bw = std::max(gait.peak_ground_force_bw, vertical / weight);
-    flight += vertical < kBearing * weight;
+    flight += vertical < bearing;
   }
   gait.flight_share = flight / static_cast<double>(frames.size());
   return gait;

@@ -13,10 +13,10 @@ struct FootContact {
   double start_x_m = 0;           // of the ankle at the strike
 };
 
-/// Stances of both feet in order of time: a foot is on the ground while it bears more than 5 % of
-/// the body weight; contacts shorter than 30 ms are ignored, and gaps shorter than 0.1 s, in which
-/// a foot rebounds and does not swing. Stances cut by the beginning or the end of the rollout are
-/// omitted.
+/// Stances of both feet in order of time: a foot is on the ground while it bears more than
+/// task::bearing_N(); contacts shorter than 30 ms are ignored, and gaps shorter than 0.1 s, in
+/// which a foot rebounds and does not swing. Stances cut by the beginning or the end of the rollout
+/// are omitted.
 std::vector<FootContact> foot_contacts(const Rollout& rollout, const osim::Model& model);
 
 /// Gait parameters over the steps of a rollout; NaN where there are too few steps.

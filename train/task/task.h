@@ -46,6 +46,9 @@ class Task {
   virtual double measure_m() const = 0;
 };
 
+/// What a foot on the ground bears at least: 5 % of the body's weight.
+double bearing_N(const osim::Model& model);
+
 /// Throws Error naming the option that is out of range, with the list of tasks.
 std::unique_ptr<Task> make_task(const TaskOptions& options, const osim::Model& model);
 

@@ -4,9 +4,6 @@
 
 namespace stride::task {
 
-/// What a foot on the ground bears at least: 5 % of the body's weight.
-double bearing_N(const osim::Model& model);
-
 // The tasks; each in the file of its name. task.cpp has their table.
 
 /// The competition's: as far as possible in 10 s. A fall is a pelvis below 0.65 m.

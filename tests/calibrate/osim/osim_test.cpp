@@ -89,9 +89,7 @@ TEST(Osim, LoadsTheCompetitionsFigures) {
   ASSERT_EQ(model.bodies.size(), 13u);
   ASSERT_EQ(model.coordinates.size(), 10u);
   ASSERT_EQ(model.muscles.size(), 18u);
-  double mass = 0;
-  for (const osim::Body& body : model.bodies) mass += body.mass_kg;
-  EXPECT_NEAR(mass, 79.6646, 1e-10);
+  EXPECT_NEAR(model.mass_kg(), 79.6646, 1e-10);
   const osim::Coordinate& lumbar = model.coordinates[model.coordinate("lumbar_extension")];
   EXPECT_TRUE(lumbar.locked);
   EXPECT_NEAR(lumbar.default_value, -0.139626, 1e-6);

@@ -41,13 +41,12 @@ std::vector<std::string> all_names() {
 
 }  // namespace
 
-Sensors::Sensors(const osim::Model& model) {
+Sensors::Sensors(const osim::Model& model) : mass_kg_(model.mass_kg()) {
   for (const char* name : kBodies) {
     bodies_.push_back(model.body(name));
     require(bodies_.back() >= 0, "model {}: has no body {}; a runner needs {}", model.name, name,
             fmt::join(kBodies, ", "));
   }
-  for (const osim::Body& body : model.bodies) mass_kg_ += body.mass_kg;
 }
 
 const std::vector<std::string>& Sensors::names() {
