@@ -122,24 +122,24 @@ std::string heights(const Calibration& c) {
 
 /// Height over the clip; the flight is shaded in every panel.
 constexpr const char* kHeights = R"(
-set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb '#444444'
+set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb letters
 set lmargin 8; set rmargin 2; set origin 0,0.605; set size 1,0.165
 set xlabel 'time, s' offset 0,0.7; set ylabel 'rise, m' offset 1,0
 set xrange [*:*] noextend; set yrange [*:*]
-plot $heights u 1:3 w lp pt 7 ps 0.3 lc rgb '#333333' lw 1.4 t 'centre of mass', $heights u 1:2 w lp pt 7 ps 0.3 lc rgb '#66a182' lw 1.4 t 'pelvis', $heights u 1:4 w lp pt 7 ps 0.3 lc rgb '#8d5524' lw 1.4 t 'lower foot', $fall u 1:2 w l dt 2 lc rgb '#d1495b' lw 2 t 'free fall, 9.81 m/s²'
+plot $heights u 1:3 w lp pt 7 ps 0.3 lc rgb '#333333' lw 1.4 t 'centre of mass', $heights u 1:2 w lp pt 7 ps 0.3 lc rgb pelvis lw 1.4 t 'pelvis', $heights u 1:4 w lp pt 7 ps 0.3 lc rgb foot lw 1.4 t 'lower foot', $fall u 1:2 w l dt 2 lc rgb fall lw 2 t 'free fall, 9.81 m/s²'
 unset key; unset xlabel
 )";
 
 /// Panel of one coordinate of a part: {0} origin, {1} part, {2} column, {3} label.
 constexpr const char* kPassagePart = R"(
 set origin {0}; set size 0.335,0.20; set ylabel '{3}' offset 1,0
-plot ${1}_l_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb '#7fa5d4', ${1}_r_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb '#dd8877', ${1}_l u 1:{2} w l ls 2, ${1}_r u 1:{2} w l ls 1, ${1}_r_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb '#222222', ${1}_l_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb '#222222'
+plot ${1}_l_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb left_mark, ${1}_r_marks u 1:($4==0?column({2}):1/0) w p pt 7 ps 0.3 lc rgb right_mark, ${1}_l u 1:{2} w l ls 2, ${1}_r u 1:{2} w l ls 1, ${1}_r_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb outlier, ${1}_l_marks u 1:($4==1?column({2}):1/0) w p pt 2 ps 0.6 lc rgb outlier
 )";
 
 /// Panel of a joint: {0} origin, {1} its block, {2} label.
 constexpr const char* kJoint = R"(
 set origin {0}; set size 0.335,0.205; set ylabel '{2}, deg' offset 1,0; set xlabel 'time, s' offset 0,0.7
-plot ${1} u 1:6:7 w filledcurves lc rgb '#cddcf0', ${1} u 1:3:4 w filledcurves lc rgb '#f3cfc8', ${1} u 1:5 w l ls 2, ${1} u 1:2 w l ls 1
+plot ${1} u 1:6:7 w filledcurves lc rgb left_band, ${1} u 1:3:4 w filledcurves lc rgb right_band, ${1} u 1:5 w l ls 2, ${1} u 1:2 w l ls 1
 )";
 
 std::string panels() {
@@ -184,13 +184,15 @@ void draw_passage(const Trajectory& trajectory, const SagittalModel& model, cons
         kHeight_px);
   std::string script = page_style(kHeight_px) + labels.text();
   script += fmt::format(
-      "set object 1 rectangle from {0},graph 0 to {1},graph 1 behind fc rgb '#eeeeee' fs solid "
+      "set object 1 rectangle from {0},graph 0 to {1},graph 1 behind fc rgb pale fs solid "
       "noborder\n",
       c.run.take_off_s, c.run.landing_s);
   for (const BodyPart part : kTraced) script += passage_marks(c, part) + curve(c, directions, part);
   script += joint(c, "hip", aperiodic::hip_r, aperiodic::hip_l) +
             joint(c, "knee_angle", aperiodic::knee_r, aperiodic::knee_l) +
             joint(c, "ankle_angle", aperiodic::ankle_r, aperiodic::ankle_l);
+  script += fmt::format("pelvis = '{}'; foot = '{}'; fall = '{}'\n", kLineColours[2],
+                        kLineColours[7], kLineColours[1]);
   script += heights(c) + kHeights + "unset label\n" + panels();
   write_file_atomically(file, with_strip(run_gnuplot(script), video, trajectory, model, c, shown));
 }

@@ -133,17 +133,17 @@ unset key; unset tics; unset border; unset grid
 set lmargin 2; set rmargin 1; set tmargin 0; set bmargin 1
 set origin 0,0.795; set size 1,0.165
 set size ratio -1; set xrange [-0.6:8.65]; set yrange [-0.05:1.65]
-plot 0 w l lc rgb '#bbbbbb', $trunk u 1:2 w l ls 3, $left u 1:2 w lp ls 2 pt 7 ps 0.4,      $right u 1:2 w lp ls 1 pt 7 ps 0.4,      $left u 1:2:3:4 w xyerrorbars lc rgb '#1f5fa8' pt 0, $right u 1:2:3:4 w xyerrorbars lc rgb '#c23b22' pt 0
+plot 0 w l lc rgb '#bbbbbb', $trunk u 1:2 w l ls 3, $left u 1:2 w lp ls 2 pt 7 ps 0.4,      $right u 1:2 w lp ls 1 pt 7 ps 0.4,      $left u 1:2:3:4 w xyerrorbars lc rgb left pt 0, $right u 1:2:3:4 w xyerrorbars lc rgb right pt 0
 set size noratio; set border 3; set tics; set xrange [*:*]; set yrange [*:*]
-set grid ytics lc rgb '#eeeeee' lt 1
+set grid ytics lc rgb pale lt 1
 set tmargin -1; set bmargin -1
 )";
 
 constexpr const char* kTime = R"(
-set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb '#444444'
+set key at screen 0.985,0.782 right horizontal samplen 1.5 textcolor rgb letters
 set lmargin 8; set rmargin 2; set origin 0,0.605; set size 1,0.165
 set xlabel 'time, s' offset 0,0.7; set ylabel 'ankle forward, px' offset 1,0; set xrange [*:*] noextend
-plot $ankle_r_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#e39a8c' notitle,      $ankle_l_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb '#93b4dc' notitle,      $ankle_r_time u 1:2 w l ls 1 t 'right leg', $ankle_l_time u 1:2 w l ls 2 t 'left leg',      $ankle_r_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' t 'outlier',      $ankle_l_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb '#222222' notitle
+plot $ankle_r_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb right_mark notitle,      $ankle_l_marks u 1:($5==0?$3:1/0) w p pt 7 ps 0.3 lc rgb left_mark notitle,      $ankle_r_time u 1:2 w l ls 1 t 'right leg', $ankle_l_time u 1:2 w l ls 2 t 'left leg',      $ankle_r_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb outlier t 'outlier',      $ankle_l_marks u 1:($5==1?$3:1/0) w p pt 2 ps 0.6 lc rgb outlier notitle
 unset key
 set xtics 0,25,100 nomirror; set xrange [0:100]; set yrange [*:*]
 )";
@@ -152,7 +152,7 @@ set xtics 0,25,100 nomirror; set xrange [0:100]; set yrange [*:*]
 /// column among the marks, {3} among the curves, {4} of the band's low end, {5} labels.
 constexpr const char* kPart = R"(
 set origin {0}; set size 0.335,0.20; {5}
-plot ${1}_r u 1:{4}:(column({4}+1)) w filledcurves lc rgb '#f3cfc8',      ${1}_l u 1:{4}:(column({4}+1)) w filledcurves lc rgb '#cddcf0',      ${1}_r_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb '#dd8877',      ${1}_l_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb '#7fa5d4',      ${1}_r u 1:{3} w l ls 1, ${1}_l u 1:{3} w l ls 2
+plot ${1}_r u 1:{4}:(column({4}+1)) w filledcurves lc rgb right_band,      ${1}_l u 1:{4}:(column({4}+1)) w filledcurves lc rgb left_band,      ${1}_r_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb right_mark,      ${1}_l_marks u 2:($5==0?column({2}):1/0) w p pt 7 ps 0.25 lc rgb left_mark,      ${1}_r u 1:{3} w l ls 1, ${1}_l u 1:{3} w l ls 2
 )";
 
 constexpr const char* kAngles = R"(

@@ -7,15 +7,19 @@
 namespace stride::report {
 namespace {
 
+/// The colours of both pictures, as variables of gnuplot, and what every panel has.
 constexpr const char* kStyle = R"(
 set encoding utf8
-set style line 1 lc rgb '#c23b22' lw 1.8
-set style line 2 lc rgb '#1f5fa8' lw 1.8
-set style line 3 lc rgb '#555555' lw 1.8
+right = '#c23b22'; right_mark = '#dd8877'; right_band = '#f3cfc8'
+left = '#1f5fa8'; left_mark = '#7fa5d4'; left_band = '#cddcf0'
+trunk = '#555555'; outlier = '#222222'; letters = '#444444'; pale = '#eeeeee'
+set style line 1 lc rgb right lw 1.8
+set style line 2 lc rgb left lw 1.8
+set style line 3 lc rgb trunk lw 1.8
 set style fill solid 1 noborder
 set border 3 lc rgb '#999999'
-set tics nomirror scale 0.5 textcolor rgb '#444444'
-set grid ytics lc rgb '#eeeeee' lt 1
+set tics nomirror scale 0.5 textcolor rgb letters
+set grid ytics lc rgb pale lt 1
 set multiplot
 )";
 
@@ -34,7 +38,7 @@ void Labels::title(const std::string& text, const std::string& aside) {
 void Labels::below_frame(int k, const std::string& text, int height_px) {
   constexpr int kBelow_px = kStripTop_px + kStripHeight_px + 11;
   write(text, (kStripLeft_px + (k + 0.5) * kStrip_px / kReportKeyframes) / kWidth_px,
-        1 - static_cast<double>(kBelow_px) / height_px, "center textcolor rgb '#444444'");
+        1 - static_cast<double>(kBelow_px) / height_px, "center textcolor rgb letters");
 }
 
 std::string page_style(int height_px) {

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace stride {
+
+/// The colours of lines in plots that stand for different things, the first for what matters most.
+inline constexpr std::array kLineColours{"#1b6ca8", "#d1495b", "#66a182", "#edae49", "#5d3a9b",
+                                         "#555555", "#00b4d8", "#8d5524", "#e377c2", "#7cb518"};
 
 /// A text as a string constant of a gnuplot script. Gnuplot runs backquotes, follows escapes and
 /// replaces macros in double quotes and nothing in single ones, so that names and titles that come

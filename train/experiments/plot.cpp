@@ -120,8 +120,6 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   const std::string name = options.out.filename().string();
   const std::map<std::string, std::string> axes{
       {"decisions", "decisions"}, {"simulated", "simulated time (h)"}, {"wall", "wall clock (h)"}};
-  constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#66a182", "#edae49", "#5d3a9b",
-                                      "#555555", "#00b4d8", "#8d5524", "#e377c2", "#7cb518"};
   const bool crowded = bands.size() > 4;
   const bool decisions = options.against == "decisions";
   double end = 0;
@@ -130,7 +128,7 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
   const char* x = millions ? "($1/1e6)" : "1";
   std::string lines;
   for (std::size_t i = 0; i < bands.size(); ++i) {
-    const char* colour = kColours[i % std::size(kColours)];
+    const char* colour = kLineColours[i % kLineColours.size()];
     lines += fmt::format(
         "{} {} index {} using {}:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs "
         "transparent solid {} noborder notitle, \\\n  '' index {} using {}:2 with lines lw 2 lc "

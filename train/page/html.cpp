@@ -8,6 +8,7 @@
 #include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/gnuplot.h"
 
 namespace stride::page {
 namespace {
@@ -18,7 +19,7 @@ body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-
        margin: 0 auto; padding: 1rem; }
 h1 { font-size: 1.6rem; line-height: 1.2; margin: .5rem 0; }
 h2 { font-size: 1.2rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #ddd; }
-.verdict { font-size: 1.1rem; border-left: .3rem solid #1b6ca8; padding: .3rem .8rem; background: #f3f7fa; }
+.verdict { font-size: 1.1rem; border-left: .3rem solid var(--first); padding: .3rem .8rem; background: #f3f7fa; }
 figure { margin: 1rem 0; break-inside: avoid; }
 figure img, figure video { max-width: 100%; height: auto; display: block; }
 figcaption { color: #555; font-size: .9rem; }
@@ -165,10 +166,11 @@ std::string document(std::string_view title, std::string_view body) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"generator\" content=\"stride\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}"
+      "<title>{0}</title>\n<style>:root {{ --first: {4}; "
+      "}}{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}"
       "<footer>Written by stride {3}. SI units. This page is one file: it needs no network and no "
       "scripts.</footer>\n</body>\n</html>\n",
-      escaped(title), kStyle, body, escaped(version()));
+      escaped(title), kStyle, body, escaped(version()), kLineColours[0]);
 }
 
 }  // namespace stride::page
