@@ -40,7 +40,7 @@ void print_text(const char* precision, const ddpg::LearnerSpeed& speed) {
 
 void bench(const BenchLearnerRequest& request) {
   training::TrainOptions options;
-  training::read_toml(training::preset_file(request.preset), options);
+  training::read_preset(request.preset, options);
   for (const std::string& assignment : request.assignments)
     training::set_option(assignment, options);
   options.check();

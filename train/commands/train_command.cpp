@@ -53,7 +53,7 @@ fs::path begin(const TrainRequest& request) {
   require(request.potential.empty() != !request.baseline,
           "give either --potential FILE, or --baseline to train without one");
   training::TrainOptions options;
-  training::read_toml(training::preset_file(request.preset), options);
+  training::read_preset(request.preset, options);
   task::TaskOptions& task = options.environment.task;
   if (!request.potential.empty())
     task = task::task_of(load_potential(request.potential).movement, request.potential);

@@ -139,7 +139,7 @@ ExperimentFile load_experiment(const fs::path& file, const std::vector<std::stri
   read_heading(sections.front().second, file, experiment);
   require(sections.size() > 1, "{}: has no arm; add a section [NAME] for each", file.string());
   training::TrainOptions common;
-  training::read_toml(training::preset_file(experiment.preset), common);
+  training::read_preset(experiment.preset, common);
   common.run.decisions = experiment.decisions;
   for (const std::string& setting : settings) training::set_option(setting, common);
   experiment.decisions = common.run.decisions;

@@ -372,6 +372,7 @@ void set_options(const std::vector<TomlSetting>& settings, const std::string& so
   for (const TomlSetting& setting : settings) {
     const std::string key = present_key(setting.key());
     const auto field = std::ranges::find(known, key, &Field::key);
+    require(key != "base", "{}: base: only a preset has one: name the preset by --preset", source);
     if (field == known.end()) {
       const auto nearest = std::ranges::min_element(
           known, {}, [&](const Field& f) { return letters_apart(f.key, key); });
@@ -409,14 +410,41 @@ std::string to_toml(const TrainOptions& options, std::string_view heading) {
   return text;
 }
 
-fs::path preset_file(std::string_view name) {
+namespace {
+
+/// `what` names the preset in an error.
+fs::path preset_file(const std::string& name, const std::string& what) {
   const fs::path folder = data_file("train/presets");
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
-  require(names.contains(std::string(name)), "preset '{}': must be one of {}", name,
-          fmt::join(names, ", "));
+  require(names.contains(name), "{}: must be one of {}", what, fmt::join(names, ", "));
   return folder / fmt::format("{}.toml", name);
+}
+
+/// `what` names the preset in an error; `chain`: the presets whose base it is.
+void read_preset(const std::string& name, const std::string& what, std::vector<std::string> chain,
+                 TrainOptions& options) {
+  const fs::path file = preset_file(name, what);
+  chain.push_back(name);
+  std::vector<TomlSetting> settings = load_toml(file);
+  const auto setting = std::ranges::find(settings, "base", &TomlSetting::key);
+  if (setting != settings.end()) {
+    const std::string base = fmt::format("{}", fmt::join(setting->words, ", "));
+    const std::string named = fmt::format("{}: base = {}", file.string(), base);
+    require(std::ranges::count(chain, base) == 0,
+            "{}: must not lead back to this preset, as it does by way of {}", named,
+            fmt::join(chain, ", "));
+    settings.erase(setting);
+    read_preset(base, named, chain, options);
+  }
+  set_options(settings, file.string(), options);
+}
+
+}  // namespace
+
+void read_preset(std::string_view name, TrainOptions& options) {
+  read_preset(std::string(name), fmt::format("preset '{}'", name), {}, options);
 }
 
 }  // namespace stride::training

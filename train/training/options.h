@@ -126,7 +126,9 @@ void set_option(std::string_view assignment, TrainOptions& options);
 /// All options as TOML with comments; reads back as the same options.
 std::string to_toml(const TrainOptions& options, std::string_view heading);
 
-/// train/presets/NAME.toml. Throws Error with the list of presets.
-std::filesystem::path preset_file(std::string_view name);
+/// Sets the options of train/presets/NAME.toml. Where it says `base = "OTHER"`, those of the preset
+/// OTHER come first. Throws Error with the list of presets for an unknown name or base, and with
+/// the chain of bases that leads back to itself.
+void read_preset(std::string_view name, TrainOptions& options);
 
 }  // namespace stride::training

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "extract/io/file.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/throws.h"
 
@@ -70,12 +71,41 @@ TEST(Options, ValuesOutOfRangeAreNamedWithTheRange) {
 TEST(Options, PresetsAreValidAndAnUnknownOneIsNamed) {
   for (const char* preset : {"competition", "ddpg", "demo", "paper", "ppo", "shaping", "stride"}) {
     training::TrainOptions options;
-    training::read_toml(training::preset_file(preset), options);
+    training::read_preset(preset, options);
     options.check();
   }
+  training::TrainOptions options;
   EXPECT_ERROR(
-      training::preset_file("fast"),
+      training::read_preset("fast", options),
       "preset 'fast': must be one of competition, ddpg, demo, paper, ppo, shaping, stride");
+}
+
+TEST(Options, APresetGoesOnFromItsBase) {
+  const TemporaryFolder folder;
+  const EnvironmentVariable data("STRIDE_DATA", folder.path().string());
+  const auto write = [&](const char* name, const char* text) {
+    write_file_atomically(folder / "train/presets" / name, text);
+  };
+  write("a.toml", "[agent]\ngamma = 0.8\ntau = 0.5\n");
+  write("b.toml", "base = \"a\"\n[agent]\ngamma = 0.7\n");
+  write("c.toml", "base = \"b\"\n[run]\nseed = 3\n");
+  write("lost.toml", "base = \"nowhere\"\n");
+  write("egg.toml", "base = \"hen\"\n");
+  write("hen.toml", "base = \"egg\"\n");
+  write("self.toml", "base = \"self\"\n");
+  training::TrainOptions options;
+  training::read_preset("c", options);
+  EXPECT_EQ(options.agent.tau, 0.5);
+  EXPECT_EQ(options.agent.gamma, 0.7);
+  EXPECT_EQ(options.run.seed, 3);
+  EXPECT_EQ(training::to_toml(options, "").find("base ="), std::string::npos);
+  EXPECT_ERROR(training::read_preset("lost", options),
+               "lost.toml: base = nowhere: must be one of a, b, c, egg, hen, lost, self");
+  EXPECT_ERROR(training::read_preset("egg", options),
+               "hen.toml: base = egg: must not lead back to this preset");
+  EXPECT_ERROR(training::read_preset("self", options), "self.toml: base = self: must not");
+  EXPECT_ERROR(training::read_toml(folder / "train/presets/b.toml", options),
+               "b.toml: base: only a preset has one");
 }
 
 namespace fs = std::filesystem;
@@ -88,15 +118,22 @@ std::vector<fs::path> presets() {
   return files;
 }
 
-TEST(Options, PresetsSayOnlyWhatDiffersFromTheDefaults) {
-  const std::string defaults = training::to_toml({}, "");
-  for (const fs::path& file : presets())
-    for (const TomlSetting& setting : load_toml(file)) {
-      training::TrainOptions options;
-      training::set_options({setting}, file.string(), options);
-      EXPECT_NE(training::to_toml(options, ""), defaults)
-          << file << ": " << setting.key() << " is as by default: leave it out";
+TEST(Options, PresetsSayOnlyWhatDiffersFromTheirBases) {
+  for (const fs::path& file : presets()) {
+    std::vector<TomlSetting> settings = load_toml(file);
+    training::TrainOptions before;
+    const auto base = std::ranges::find(settings, "base", &TomlSetting::key);
+    if (base != settings.end()) {
+      training::read_preset(base->words.at(0), before);
+      settings.erase(base);
     }
+    for (const TomlSetting& setting : settings) {
+      training::TrainOptions options = before;
+      training::set_options({setting}, file.string(), options);
+      EXPECT_NE(training::to_toml(options, ""), training::to_toml(before, ""))
+          << file << ": " << setting.key() << " is as in the base or by default: leave it out";
+    }
+  }
 }
 
 /// The settings as to_toml() writes them: [section], then a line `name = value  # meaning` each.
@@ -129,7 +166,7 @@ std::string settings_table() {
   std::vector<std::vector<Line>> columns{lines_of({})};
   for (const fs::path& file : presets()) {
     training::TrainOptions options;
-    training::read_toml(file, options);
+    training::read_preset(file.stem().string(), options);
     const std::vector<Line> lines = lines_of(options);
     if (training::to_toml(options, "") == training::to_toml({}, "")) continue;
     columns.push_back(lines);

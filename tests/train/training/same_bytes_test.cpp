@@ -17,7 +17,7 @@ namespace {
 std::string curve_hash(const char* preset, const std::vector<std::string>& settings) {
   TemporaryFolder folder;
   training::TrainOptions options;
-  training::read_toml(training::preset_file(preset), options);
+  training::read_preset(preset, options);
   for (const std::string& setting : settings) training::set_option(setting, options);
   training::make_run_folder(
       options,
