@@ -47,41 +47,6 @@ double simulated_s(const Training& training) {
   return total;
 }
 
-/// Where the agent is evaluated: without chance, as the rules start an episode. A lane is a
-/// thread's own environment.
-class Evaluator {
- public:
-  Evaluator(const TrainOptions& options, const Potential* potential,
-            const training::EnvironmentFactory& make_environment, int threads)
-      : options_(options), potential_(potential) {
-    for (int i = 0; i < std::min(threads, options.run.evaluation_episodes); ++i) {
-      environments_.push_back(make_environment(-1));
-      observers_.push_back(
-          training::make_observer(options, potential, environments_.back()->spec()));
-    }
-  }
-
-  std::vector<EpisodeSummary> evaluate(const network::Policy<float>& policy,
-                                       training::ThreadPool& threads) {
-    std::vector<EpisodeSummary> episodes(
-        static_cast<std::size_t>(options_.run.evaluation_episodes));
-    const std::size_t lanes = environments_.size();
-    threads.run(static_cast<int>(lanes), [&](int lane) {
-      for (auto i = static_cast<std::size_t>(lane); i < episodes.size(); i += lanes)
-        episodes[i] = network::run_episode(policy, *environments_[static_cast<std::size_t>(lane)],
-                                           observers_[static_cast<std::size_t>(lane)], potential_,
-                                           options_.run.action_repeat, i, nullptr);
-    });
-    return episodes;
-  }
-
- private:
-  const TrainOptions& options_;
-  const Potential* potential_;
-  std::vector<std::unique_ptr<environment::Environment>> environments_;
-  std::vector<environment::Observer> observers_;
-};
-
 /// What is learnt from a batch of decisions. Empty, or why learning stopped.
 std::string learn(const TrainOptions& options, Training& training, training::ThreadPool& threads,
                   RolloutBatch& batch) {
@@ -120,7 +85,7 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
   training::Journal journal(run, new_ppo_curve(options.environment.task.name), progress,
                             ranks.first() ? messages : nullptr);
   training::ThreadPool threads(options.run.threads);
-  Evaluator evaluator(options, potential, make_environment, threads.size());
+  training::Evaluator evaluator(options, potential, make_environment, threads.size());
   training::TrainSummary summary;
 
   const auto evaluate = [&] {

@@ -136,14 +136,7 @@ void collect(const training::TrainOptions& options, Training& training,
   training::Progress& progress = training.progress;
   progress.decisions += batch.decisions();
   for (Slot& slot : training.slots)
-    for (const network::EpisodeSummary& episode : slot.take_finished()) {
-      ++progress.episodes;
-      progress.falls += episode.fell;
-      progress.failures += episode.failed;
-      progress.sums.episodes += 1;
-      progress.sums.distance_m += episode.distance_m;
-      progress.sums.reward += episode.reward;
-    }
+    for (const network::EpisodeSummary& episode : slot.take_finished()) progress.add(episode);
 }
 
 }  // namespace stride::ppo

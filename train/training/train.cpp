@@ -98,42 +98,8 @@ void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& t
     }
   training.normaliser.publish();
   for (ddpg::Explorer<Scalar>& explorer : training.explorers)
-    for (const network::EpisodeSummary& episode : explorer.take_finished()) {
-      ++progress.episodes;
-      progress.falls += episode.fell;
-      progress.failures += episode.failed;
-      progress.sums.episodes += 1;
-      progress.sums.distance_m += episode.distance_m;
-      progress.sums.reward += episode.reward;
-    }
+    for (const network::EpisodeSummary& episode : explorer.take_finished()) progress.add(episode);
 }
-
-/// Evaluates the agent without noise, in episodes that start by the rules.
-template <typename Scalar>
-class Evaluator {
- public:
-  Evaluator(const TrainOptions& options, const Potential* potential,
-            const EnvironmentFactory& make_environment)
-      : options_(options),
-        potential_(potential),
-        environment_(make_environment(-1)),
-        observer_(make_observer(options, potential, environment_->spec())) {}
-
-  std::vector<network::EpisodeSummary> evaluate(const network::Policy<Scalar>& policy) {
-    std::vector<network::EpisodeSummary> episodes;
-    for (int i = 0; i < options_.run.evaluation_episodes; ++i)
-      episodes.push_back(network::run_episode(policy, *environment_, observer_, potential_,
-                                              options_.run.action_repeat,
-                                              static_cast<std::uint64_t>(i), nullptr));
-    return episodes;
-  }
-
- private:
-  const TrainOptions& options_;
-  const Potential* potential_;
-  std::unique_ptr<environment::Environment> environment_;
-  environment::Observer observer_;
-};
 
 /// The loop.
 template <typename Scalar>
@@ -153,7 +119,7 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
   Journal journal(run, new_curve(options.environment.task.name), progress,
                   ranks.first() ? messages : nullptr);
   ThreadPool pool(options.run.threads);
-  Evaluator<Scalar> evaluator(options, potential, make_environment);
+  Evaluator evaluator(options, potential, make_environment, pool.size());
   TrainSummary summary;
 
   const auto evaluate = [&] {
@@ -161,7 +127,8 @@ TrainSummary train_with(const TrainOptions& options, const Potential* potential,
     progress.last_row_decisions = progress.decisions;
     if (!ranks.first()) return;
     const network::Policy<Scalar> policy = policy_of(training, options);
-    const CurveRow row = curve_row(progress, simulated_s(training), evaluator.evaluate(policy));
+    const CurveRow row =
+        curve_row(progress, simulated_s(training), evaluator.evaluate(policy, pool));
     summary.distance_m = row.evaluation_distance_m;
     journal.keep_policy(policy,
                         {.features = training.feature_names,

@@ -29,6 +29,15 @@ environment::Observer make_observer(const TrainOptions& options, const Potential
   return environment::Observer(spec, observation, options.run.action_repeat * spec.step_s);
 }
 
+void Progress::add(const network::EpisodeSummary& episode) {
+  ++episodes;
+  falls += episode.fell;
+  failures += episode.failed;
+  sums.episodes += 1;
+  sums.distance_m += episode.distance_m;
+  sums.reward += episode.reward;
+}
+
 template <typename Scalar>
 Training<Scalar> start_training(const TrainOptions& options, const Potential* potential,
                                 const EnvironmentFactory& make_environment) {
@@ -90,6 +99,30 @@ double simulated_s(const Training<Scalar>& training) {
   return total;
 }
 
+Evaluator::Evaluator(const TrainOptions& options, const Potential* potential,
+                     const EnvironmentFactory& make_environment, int threads)
+    : options_(options), potential_(potential) {
+  for (int i = 0; i < std::min(threads, options.run.evaluation_episodes); ++i) {
+    environments_.push_back(make_environment(-1));
+    observers_.push_back(make_observer(options, potential, environments_.back()->spec()));
+  }
+}
+
+template <typename Scalar>
+std::vector<network::EpisodeSummary> Evaluator::evaluate(const network::Policy<Scalar>& policy,
+                                                         ThreadPool& threads) {
+  std::vector<network::EpisodeSummary> episodes(
+      static_cast<std::size_t>(options_.run.evaluation_episodes));
+  const std::size_t lanes = environments_.size();
+  threads.run(static_cast<int>(lanes), [&](int task) {
+    const auto lane = static_cast<std::size_t>(task);
+    for (std::size_t i = lane; i < episodes.size(); i += lanes)
+      episodes[i] = network::run_episode(policy, *environments_[lane], observers_[lane], potential_,
+                                         options_.run.action_repeat, i, nullptr);
+  });
+  return episodes;
+}
+
 template Training<float> start_training(const TrainOptions&, const Potential*,
                                         const EnvironmentFactory&);
 template Training<double> start_training(const TrainOptions&, const Potential*,
@@ -98,5 +131,9 @@ template network::Policy<float> policy_of(const Training<float>&, const TrainOpt
 template network::Policy<double> policy_of(const Training<double>&, const TrainOptions&);
 template double simulated_s(const Training<float>&);
 template double simulated_s(const Training<double>&);
+template std::vector<network::EpisodeSummary> Evaluator::evaluate(const network::Policy<float>&,
+                                                                  ThreadPool&);
+template std::vector<network::EpisodeSummary> Evaluator::evaluate(const network::Policy<double>&,
+                                                                  ThreadPool&);
 
 }  // namespace stride::training

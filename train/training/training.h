@@ -9,6 +9,7 @@
 #include "train/ddpg/agent.h"
 #include "train/ddpg/explorer.h"
 #include "train/training/options.h"
+#include "train/training/thread_pool.h"
 
 namespace stride::training {
 
@@ -28,6 +29,9 @@ struct Progress {
     double episodes = 0, distance_m = 0, reward = 0;
     double updates = 0, critic_loss = 0, q = 0, target = 0, actor_gradient = 0, critic_gradient = 0;
   } sums;
+
+  /// Counts an episode of training that has ended.
+  void add(const network::EpisodeSummary& episode);
 };
 
 /// The mutable state of a run, which a checkpoint stores.
@@ -58,5 +62,23 @@ double simulated_s(const Training<Scalar>& training);
 /// The agent's view of an environment under these options.
 environment::Observer make_observer(const TrainOptions& options, const Potential* potential,
                                     const environment::EnvironmentSpec& spec);
+
+/// Evaluates an agent without noise, in episodes that start by the rules. Each thread has an
+/// environment of its own.
+class Evaluator {
+ public:
+  Evaluator(const TrainOptions& options, const Potential* potential,
+            const EnvironmentFactory& make_environment, int threads);
+
+  template <typename Scalar>
+  std::vector<network::EpisodeSummary> evaluate(const network::Policy<Scalar>& policy,
+                                                ThreadPool& threads);
+
+ private:
+  const TrainOptions& options_;
+  const Potential* potential_;
+  std::vector<std::unique_ptr<environment::Environment>> environments_;
+  std::vector<environment::Observer> observers_;
+};
 
 }  // namespace stride::training

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<environment::Environment> point_mass(int) { return std::make_unique<PointMass>(); }
-
 training::TrainOptions small_run() {
   training::TrainOptions options;
   options.run.learner = "ppo";
@@ -37,21 +35,6 @@ training::TrainOptions small_run() {
   options.ppo.alive_per_s = options.ppo.final_alive_per_s = 0;
   options.shaping.scale = 1;
   return options;
-}
-
-Potential some_potential() {
-  Potential potential;
-  potential.source = "test";
-  potential.model = "point mass";
-  potential.period_s = 0.7;
-  potential.weight = 0.01;
-  for (int k = 0; k < 8; ++k) {
-    Keyframe key;
-    key.phase = k / 8.0;
-    key.pose = {{1, 0.02 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
-    potential.keyframes.push_back(key);
-  }
-  return potential;
 }
 
 std::string trained(const training::TrainOptions& options,
@@ -77,7 +60,7 @@ TEST(PpoTrain, BringsAPointMassToRest) {
 
 TEST(PpoTrain, CurveDependsOnTheSeedAloneNotOnThreads) {
   TemporaryFolder folder;
-  const training::Demonstration demonstration{.potential = some_potential(), .reference = {}};
+  const training::Demonstration demonstration{.potential = point_mass_potential(), .reference = {}};
   training::TrainOptions options = small_run();
   const std::string curve = trained(options, demonstration, folder / "a");
   options.run.threads = 3;
@@ -88,7 +71,7 @@ TEST(PpoTrain, CurveDependsOnTheSeedAloneNotOnThreads) {
 
 TEST(PpoTrain, KilledAnywhereAndResumedItGivesTheCurveOfAnUninterruptedRun) {
   TemporaryFolder folder;
-  const training::Demonstration demonstration{.potential = some_potential(), .reference = {}};
+  const training::Demonstration demonstration{.potential = point_mass_potential(), .reference = {}};
   training::TrainOptions options = small_run();
   options.run.decisions = 20000;
   options.run.checkpoint_s = 0.01;
@@ -136,7 +119,7 @@ TEST(PpoTrain, BeginsWithTheNetworksOfAnotherRun) {
 /// Σ γᵗ F over whole episodes with repeated actions: −Φ(s₀) where it fell, γᵀ Φ(s_T) − Φ(s₀) at the
 /// time limit.
 TEST(PpoSlot, ShapingTelescopesOverAnEpisode) {
-  const Potential potential = some_potential();
+  const Potential potential = point_mass_potential();
   const double gamma = 0.9;
   const environment::Observer observer(
       PointMass().spec(), {.centre = false, .derived = false, .activations = false}, 0.1);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "extract/io/random.h"
+#include "shaping/potential.h"
 #include "train/environment/environment.h"
 
 namespace stride {
@@ -60,5 +62,25 @@ class PointMass : public environment::Environment {
   double x_ = 0, v_ = 0;
   int steps_ = 0;
 };
+
+inline std::unique_ptr<environment::Environment> point_mass(int) {
+  return std::make_unique<PointMass>();
+}
+
+/// Eight poses of no runner.
+inline Potential point_mass_potential() {
+  Potential potential;
+  potential.source = "test";
+  potential.model = "point mass";
+  potential.period_s = 0.7;
+  potential.weight = 0.01;
+  for (int k = 0; k < 8; ++k) {
+    Keyframe key;
+    key.phase = k / 8.0;
+    key.pose = {{1, 0.02 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
+    potential.keyframes.push_back(key);
+  }
+  return potential;
+}
 
 }  // namespace stride

@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<environment::Environment> point_mass(int) { return std::make_unique<PointMass>(); }
-
 training::TrainOptions small_run() {
   training::TrainOptions options;
   options.run.decisions = 3000;
@@ -46,21 +44,6 @@ training::TrainOptions small_run() {
   options.replay.capacity = 1500;
   options.shaping.scale = 1;
   return options;
-}
-
-Potential point_mass_potential() {
-  Potential potential;
-  potential.source = "test";
-  potential.model = "point mass";
-  potential.period_s = 0.7;
-  potential.weight = 0.01;
-  for (int k = 0; k < 8; ++k) {
-    Keyframe key;
-    key.phase = k / 8.0;
-    key.pose = {{1, 0.02 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
-    potential.keyframes.push_back(key);
-  }
-  return potential;
 }
 
 std::string trained(const training::TrainOptions& options,
