@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "calibrate/runner/calibrated.h"
+#include "extract/skeleton/units.h"
 #include "shaping/potential.h"
 
 namespace stride {

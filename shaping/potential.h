@@ -17,8 +17,6 @@ enum class PotentialIndex { time, nearest };
 inline constexpr Names<PotentialIndex> kPotentialIndices({{PotentialIndex::time, "time"},
                                                           {PotentialIndex::nearest, "nearest"}});
 
-inline constexpr int kKeyframesPerStride = 8;  // the paper's four a half step
-
 struct Keyframe {
   double phase = 0;  // [0, 1), of a movement that does not repeat [0, 1]
   Pose pose;

@@ -13,6 +13,7 @@
 #include "calibrate/fit/solver/problem.h"
 #include "calibrate/fit/solver/residuals.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/robust_fit.h"
 #include "extract/skeleton/units.h"
 
 namespace stride::aperiodic {
@@ -128,9 +129,8 @@ void estimate_noise(const Problem& problem, PassageFit& fit) {
     for (const double r : fit.marks[i].r_px)
       absolute.push_back(std::abs(r) * std::sqrt(mark.weight));
   }
-  constexpr double kSigmaOfMedian = 1.4826;
   const double own = problem.mark_sd * fit.passage.leg_px();
-  fit.seen_px = kSigmaOfMedian * median(absolute);
+  fit.seen_px = kSigmaPerMedian * median(absolute);
   fit.sigma_px = std::max(fit.seen_px, own);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -34,7 +34,8 @@ std::string describe(const Model& model) {
   text += fmt::format("mass {:.4g} kg, gravity {:.6g} m/s²\n\n", model.mass_kg(),
                       -model.gravity_m_s2[1]);
   for (const Coordinate& each : model.coordinates)
-    text += fmt::format("  {:<18} default {:8.4f} {}{}\n", each.name, each.default_value,
+    text += fmt::format("  {:<18} default {:8.4f} ({:.3f} to {:.3f}) {}{}\n", each.name,
+                        each.default_value, each.range_min, each.range_max,
                         each.rotational ? "rad" : "m", each.locked ? ", locked" : "");
   text += fmt::format("\n  {:<18} {:>9} {:>11} {:>11} {:>13}\n", "muscle", "force [N]", "fibre [m]",
                       "tendon [m]", "path points");

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "extract/skeleton/units.h"
 
 namespace stride::report {
 
-inline constexpr int kReportKeyframes = 8;  // of a stride, as the paper's
+inline constexpr int kReportKeyframes = kKeyframesPerStride;
 
 /// The video of a trajectory, if it is in `folder` and has the right hash; else empty.
 std::filesystem::path video_in(const std::filesystem::path& folder, const Trajectory& trajectory);

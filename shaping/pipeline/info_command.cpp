@@ -96,21 +96,6 @@ std::string about_calibrated(const CalibratedTrajectory& c) {
       c.rms_px, 100 * c.rms_m, c.samples.size());
 }
 
-std::string about_model(const osim::Model& m) {
-  std::string text = fmt::format(
-      "OpenSim model {}: {} bodies of {:.3f} kg, {} coordinates, {} muscles, {} contact spheres\n",
-      m.name, m.bodies.size(), m.mass_kg(), m.coordinates.size(), m.muscles.size(),
-      m.spheres.size());
-  for (const osim::Coordinate& c : m.coordinates)
-    text += fmt::format("  {:<18} {:8.3f} ({:.3f} to {:.3f}){}\n", c.name, c.default_value,
-                        c.range_min, c.range_max, c.locked ? " locked" : "");
-  for (const osim::Muscle& muscle : m.muscles)
-    text += fmt::format("  {:<14} {:7.0f} N, fibre {:.4f} m, tendon {:.4f} m\n", muscle.name,
-                        muscle.max_isometric_force_N, muscle.optimal_fiber_length_m,
-                        muscle.tendon_slack_length_m);
-  return text + m.credits + "\n";
-}
-
 std::string about_table(const Table& table) {
   std::string text =
       fmt::format("{} version {}, {} rows\n", table.format.empty() ? "a plain table" : table.format,
@@ -187,7 +172,7 @@ std::string about(const fs::path& file) {
             file.string());
     return about_run(file);
   }
-  if (file.extension() == ".osim") return about_model(osim::load_osim(file));
+  if (file.extension() == ".osim") return osim::describe(osim::load_osim(file));
   if (file.extension() == ".json") return about_json(file);
   const FileKind kind = kind_of(file);
   // A stream without a container has no first bytes to be told by: the decoder is tried.

@@ -9,6 +9,7 @@
 #include "extract/annotation/session/canvas.h"
 #include "extract/io/error.h"
 #include "extract/skeleton/movement.h"
+#include "extract/skeleton/units.h"
 #include "extract/tracking/time_check.h"
 
 namespace stride::annotation {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kGripRadius = 9;       // canvas px around a point
 constexpr double kDragThreshold = 3;    // canvas px before a press becomes a drag
-constexpr int kPhasesPerStride = 8;     // four a half step, as in the paper
 constexpr double kUsualStride_s = 0.7;  // of a run, until this runner's is known
 
 }  // namespace
@@ -65,7 +65,7 @@ double AnnotationSession::stride_frames() const {
 }
 
 double AnnotationSession::phase_step() const {
-  return std::max(1.0, stride_frames() / kPhasesPerStride * step_factor_);
+  return std::max(1.0, stride_frames() / kKeyframesPerStride * step_factor_);
 }
 
 const cv::Mat& AnnotationSession::shown_image() {
