@@ -6,9 +6,9 @@
 namespace stride::videos {
 namespace {
 
-class Track final : public Scenery {
+class AthleticsTrack final : public Scenery {
  public:
-  explicit Track(std::uint64_t seed) : grain_(seed) {}
+  explicit AthleticsTrack(std::uint64_t seed) : grain_(seed) {}
 
  protected:
   Colour ground(double x, double z, double) const override {
@@ -70,6 +70,8 @@ class Track final : public Scenery {
 
 }  // namespace
 
-std::unique_ptr<Scenery> track_scene(std::uint64_t seed) { return std::make_unique<Track>(seed); }
+std::unique_ptr<Scenery> track_scene(std::uint64_t seed) {
+  return std::make_unique<AthleticsTrack>(seed);
+}
 
 }  // namespace stride::videos

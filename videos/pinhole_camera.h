@@ -16,9 +16,9 @@ struct PinholeCamera {
   double pixel_aspect = 1;  // width of a pixel over its height
   bool from_left = false;   // on the runner's left: the run goes to the left of the image
 
-  double way() const { return from_left ? -1 : 1; }
+  double direction() const { return from_left ? -1 : 1; }
   /// Depth of a plane z = const.
-  double depth(double z_m) const { return distance_m - way() * z_m; }
+  double depth(double z_m) const { return distance_m - direction() * z_m; }
   /// Of the plane z = 0, at the principal point and vertically.
   double metres_per_pixel() const { return distance_m / focal_px; }
 

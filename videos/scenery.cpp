@@ -60,18 +60,19 @@ void Scenery::paint(const PinholeCamera& camera, double du, double dv,
       const Eigen::Vector2d uv = camera.upright(u + du, v + dv) / camera.focal_px;
       const double depth = uv.y() > 0 ? camera.height_m / uv.y() : 1e9;
       if (depth < wall_depth) {
-        const double x = camera.x_m + camera.way() * uv.x() * depth;
+        const double x = camera.x_m + camera.direction() * uv.x() * depth;
         const double z = camera.distance_m - depth;
         row[u] = ground(x, z, belt_m);
         if (x > left && x < right)
-          row[u] *= static_cast<float>(1 - darkness(shadow, x, camera.way() * z));
+          row[u] *= static_cast<float>(1 - darkness(shadow, x, camera.direction() * z));
         continue;
       }
       const double y = camera.height_m - uv.y() * wall_depth;
       if (y < wall_height_m())
-        row[u] = wall(camera.x_m + camera.way() * uv.x() * wall_depth, y);
+        row[u] = wall(camera.x_m + camera.direction() * uv.x() * wall_depth, y);
       else
-        row[u] = beyond(camera.x_m + camera.way() * uv.x() * (wall_depth + kBeyond_m), -uv.y());
+        row[u] =
+            beyond(camera.x_m + camera.direction() * uv.x() * (wall_depth + kBeyond_m), -uv.y());
     }
   }
 }

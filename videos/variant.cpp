@@ -32,12 +32,12 @@ Clip from_other_side(Clip clip) {
 }
 
 Clip from_one_place(Clip clip) {
-  const double way_m = Motion(clip).speed_m_s() * clip.duration_s();
+  const double run_m = Motion(clip).speed_m_s() * clip.duration_s();
   constexpr double kMargin_m = 1.6;  // an arm and a leg at both ends
   clip.camera_follows = false;
   clip.zoom = 0;
-  clip.camera.x_m += way_m / 2;
-  clip.camera.focal_px = clip.camera.distance_m * clip.width_px / (way_m + kMargin_m);
+  clip.camera.x_m += run_m / 2;
+  clip.camera.focal_px = clip.camera.distance_m * clip.width_px / (run_m + kMargin_m);
   return clip;
 }
 

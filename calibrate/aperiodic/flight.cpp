@@ -197,10 +197,12 @@ GroundPath ground_path(const Trajectory& trajectory, const fit::Marks& marks, co
       first += foot[i] / (4.0 * static_cast<double>(quarter));
       last += foot[n - 1 - i] / (4.0 * static_cast<double>(quarter));
     }
-  const Vector2d way = last - first;
+  const Vector2d displacement = last - first;
   constexpr double kSteepest = 0.1;  // rad: else it does not stand before or after
-  if (way.x() > 0.4 * fit.passage.leg_px() && std::abs(way.y()) < kSteepest * way.x()) {
-    const double sd = 0.012 * fit.passage.leg_px() / way.x(), seen = std::atan2(way.y(), way.x());
+  if (displacement.x() > 0.4 * fit.passage.leg_px() &&
+      std::abs(displacement.y()) < kSteepest * displacement.x()) {
+    const double sd = 0.012 * fit.passage.leg_px() / displacement.x(),
+                 seen = std::atan2(displacement.y(), displacement.x());
     const double a = 1 / (sd * sd), b = 1 / (roll.sd * roll.sd);
     path.roll_rad = (a * seen + b * roll.mean) / (a + b);
     path.roll_sd_rad = 1 / std::sqrt(a + b);

@@ -53,11 +53,11 @@ std::optional<Background> background_of(const Trajectory& trajectory) {
   return background;
 }
 
-/// The slope of the runner's way before the background, by least squares; none without a way.
-std::optional<double> way_of_runner(const Trajectory& trajectory, const Background& background) {
+/// The slope of the runner's path before the background, by least squares; none without a path.
+std::optional<double> slope_of_path(const Trajectory& trajectory, const Background& background) {
   constexpr double kSlipped = 5;  // times the scatter: no step of the background
   Eigen::Vector2d camera = Eigen::Vector2d::Zero(), mean = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> way;
+  std::vector<Eigen::Vector2d> path;
   for (const TrajectoryFrame& frame : trajectory.frames) {
     if (frame.camera_px.allFinite()) {
       Eigen::Vector2d step = frame.camera_px;
@@ -66,13 +66,13 @@ std::optional<double> way_of_runner(const Trajectory& trajectory, const Backgrou
       camera += step;
     }
     if (!frame[BodyPart::pelvis].present()) continue;
-    way.push_back(frame[BodyPart::pelvis].p_px - camera);
-    mean += way.back();
+    path.push_back(frame[BodyPart::pelvis].p_px - camera);
+    mean += path.back();
   }
-  if (way.size() < 8) return std::nullopt;
-  mean /= static_cast<double>(way.size());
+  if (path.size() < 8) return std::nullopt;
+  mean /= static_cast<double>(path.size());
   double xx = 0, xy = 0, least = mean.x(), greatest = mean.x();
-  for (const Eigen::Vector2d& p : way) {
+  for (const Eigen::Vector2d& p : path) {
     xx += std::pow(p.x() - mean.x(), 2);
     xy += (p.x() - mean.x()) * (p.y() - mean.y());
     least = std::min(least, p.x());
@@ -82,10 +82,10 @@ std::optional<double> way_of_runner(const Trajectory& trajectory, const Backgrou
   return xy / xx;
 }
 
-/// The angle between the way of the runner and that of the background, rad; 0 without a way.
+/// The angle between the path of the runner and that of the background, rad; 0 without a path.
 double disagreement(const Trajectory& trajectory, const Background& background) {
-  const auto way = way_of_runner(trajectory, background);
-  return way ? std::abs(std::atan(*way) - std::atan(background.tangent)) : 0;
+  const auto slope = slope_of_path(trajectory, background);
+  return slope ? std::abs(std::atan(*slope) - std::atan(background.tangent)) : 0;
 }
 
 bool turns(double disagreement) {

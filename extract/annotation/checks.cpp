@@ -78,8 +78,9 @@ std::optional<int> worst_frame(const Trajectory& prediction, const Keypoints& ke
 std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoints& keypoints,
                                       const std::vector<BodyPart>& parts,
                                       const std::vector<WorstPoint>& passed_by) {
-  constexpr int kNear = 3;                     // frames over which a correction reaches
-  constexpr double kMostBelieved_legs = 0.06;  // noise at which tracking leaves a point to the gait
+  constexpr int kNear = 3;  // frames over which a correction reaches
+  constexpr double kGaitTakesOver_legs =
+      0.06;  // noise at which tracking leaves a point to the gait
   // A potential has knees, ankles and pelvis.
   const auto share = [](BodyPart part) { return row(part).required ? 1.0 : 0.05; };
   const auto clicks_on = [&](BodyPart part) {  // either side
@@ -111,7 +112,7 @@ std::optional<WorstPoint> worst_point(const Trajectory& prediction, const Keypoi
       const double unsure = own * own + tracking::kHand_legs * tracking::kHand_legs;
       const auto left = [&](int n) { return idea / (1 + n * idea / unsure); };
       const double expected =
-          share(part) * (own * own / (1 + std::pow(own / kMostBelieved_legs, 2)) +
+          share(part) * (own * own / (1 + std::pow(own / kGaitTakesOver_legs, 2)) +
                          points * (left(clicks) - left(clicks + 1)));
       if (expected <= greatest || is_done(frame.frame, part)) continue;
       greatest = expected;

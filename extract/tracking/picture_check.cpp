@@ -64,8 +64,8 @@ PictureCheck compared(const FramesByNumber& frames, const std::vector<Glimpse>& 
     std::vector<float> error;
     cv::calcOpticalFlowPyrLK(glimpse.first, glimpse.second, from, flow, found, error, {15, 15}, 3);
     for (std::size_t i = 0; i < from.size(); ++i) {
-      const double way = cv::norm(to[i] - from[i]);
-      followed += found[i] && cv::norm(flow[i] - to[i]) < std::max(1.5, 0.35 * way);
+      const double moved_px = cv::norm(to[i] - from[i]);
+      followed += found[i] && cv::norm(flow[i] - to[i]) < std::max(1.5, 0.35 * moved_px);
     }
   }
   check.follow = check.compared > 0 ? static_cast<double>(followed) / check.compared : 0;

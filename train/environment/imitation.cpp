@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBins = 100;         // of a stride; strides are averaged in each
 constexpr double kRate_rad_s = 3;  // of the difference of rates that leaves 1/e
-constexpr double kOfAngles = 0.8;  // their share in the likeness
+constexpr double kOfAngles = 0.8;  // their share in the similarity
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -76,7 +76,7 @@ Imitation::Knot Imitation::at(double phase) const {
   return knot;
 }
 
-double Imitation::likeness(const simulation::RunnerState& state, double phase) const {
+double Imitation::similarity(const simulation::RunnerState& state, double phase) const {
   const Knot clip = at(phase);
   Angles angle{}, rate{};
   for (std::size_t k = 0; k < kAngles.size(); ++k) {

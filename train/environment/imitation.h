@@ -28,10 +28,10 @@ class Imitation {
   /// 0.8 exp(−mean Δθ² / angle²) + 0.2 exp(−mean Δω² / (3 rad/s)²), with the differences of the
   /// angles θ and rates ω of pelvis, hips, knees and ankles to the clip's at that phase: 1 for the
   /// clip's own motion.
-  double likeness(const simulation::RunnerState& state, double phase) const;
+  double similarity(const simulation::RunnerState& state, double phase) const;
 
   double reward(const simulation::RunnerState& state, double phase, double step_s) const {
-    return options_.reward_per_s * step_s * likeness(state, phase);
+    return options_.reward_per_s * step_s * similarity(state, phase);
   }
 
   /// Whether an episode ends there.

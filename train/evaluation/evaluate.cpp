@@ -52,10 +52,10 @@ Json to_json(const rollout::GaitSummary& gait) {
 }
 
 /// Null if there was no clip.
-Json to_json(const std::optional<rollout::ClipLikeness>& likeness) {
-  if (!likeness) return {};
-  return {{"angle_rms_deg", number(likeness->angle_rms_deg)},
-          {"inside_share", number(likeness->inside_share)}};
+Json to_json(const std::optional<rollout::ClipSimilarity>& similarity) {
+  if (!similarity) return {};
+  return {{"angle_rms_deg", number(similarity->angle_rms_deg)},
+          {"inside_share", number(similarity->inside_share)}};
 }
 
 /// The people whose gait it is compared with; none at speeds at which they do not run.
@@ -86,7 +86,7 @@ Json to_json(const Evaluation& evaluation, const fs::path& agent) {
             {"median_seed", evaluation.first_seed + median_episode(evaluation.episodes)},
             {"gait", to_json(evaluation.gait)},
             {"human_at_this_speed", to_json(human_of(evaluation))},
-            {"clip", to_json(evaluation.likeness)},
+            {"clip", to_json(evaluation.similarity)},
             {"episodes", episodes}};
   if (evaluation.task.movement != kDefaultMovement) {
     json["movement"] = evaluation.task.movement;
@@ -142,10 +142,10 @@ std::string Evaluation::brief_report() const {
   if (std::isfinite(gait.leg_phase))
     text += fmt::format("\n  {:<18}{:>6.2f}  {}", "phase of the legs", gait.leg_phase,
                         rollout::leg_pattern(gait.leg_phase));
-  if (likeness)
+  if (similarity)
     text += fmt::format(
         "\n  {:<18}{:>6.2f}  of the joint angles inside the clip's band, rms {:.0f} deg",
-        "like the clip", likeness->inside_share, likeness->angle_rms_deg);
+        "like the clip", similarity->inside_share, similarity->angle_rms_deg);
   return text + (human || !compared
                      ? ""
                      : "\n  humans do not run at this speed: no figures to compare with");
@@ -189,7 +189,7 @@ Evaluation evaluate(const fs::path& run, const EvaluateOptions& options) {
                  evaluation.first_seed + median_episode(evaluation.episodes));
   evaluation.gait = rollout::gait_of(median, model);
   if (!options.clip.empty())
-    evaluation.likeness = rollout::likeness(median, load_calibrated(options.clip), model);
+    evaluation.similarity = rollout::similarity(median, load_calibrated(options.clip), model);
 
   evaluation.file = out / "evaluation.json";
   write_file_atomically(evaluation.file, json_text(to_json(evaluation, agent)));

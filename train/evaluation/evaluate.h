@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "train/evaluation/episodes.h"
-#include "train/rollout/clip_likeness.h"
+#include "train/rollout/clip_similarity.h"
 #include "train/rollout/gait_summary.h"
 #include "train/training/options.h"
 
@@ -32,9 +32,9 @@ struct Evaluation {
   std::vector<network::EpisodeSummary> episodes;
   std::uint64_t first_seed = 0;
   EpisodeStatistics statistics;
-  rollout::GaitSummary gait;                      // of the median episode
-  std::optional<rollout::ClipLikeness> likeness;  // of that to options.clip
-  task::TaskOptions task;                         // of the agent: the distances are its measure
+  rollout::GaitSummary gait;                          // of the median episode
+  std::optional<rollout::ClipSimilarity> similarity;  // of that to options.clip
+  task::TaskOptions task;                             // of the agent: the distances are its measure
   std::filesystem::path file;
   std::string brief_report() const;
 };

@@ -33,7 +33,7 @@ struct Reached {
 /// Of a run's evaluation.json.
 struct GaitFigures {
   double leg_phase = 0, duty_factor = 0, cadence_per_min = 0;  // GaitSummary
-  double inside_share = 0, angle_rms_deg = 0;                  // ClipLikeness
+  double inside_share = 0, angle_rms_deg = 0;                  // ClipSimilarity
 };
 
 /// The results of one arm, with an element for each seed. Distances are the measure of the task.

@@ -191,8 +191,8 @@ void draw_force(Canvas& canvas, const FilmModel& model, const RunnerPicture& pic
   if (force.y < 20) return;
   const auto& bodies = picture.kinematics.bodies;
   const simulation::PlanarVector heel = bodies[model.legs[side].calcn].position,
-                                 ball = bodies[model.legs[side].toes].position;
-  const simulation::PlanarVector from{0.5 * (heel.x + ball.x), 0},
+                                 toes = bodies[model.legs[side].toes].position;
+  const simulation::PlanarVector from{0.5 * (heel.x + toes.x), 0},
       to{from.x + force.x * kForce_m_N, force.y * kForce_m_N};
   const cv::Scalar green(70, 150, 40);
   canvas.line(from, to, 0.012, green);

@@ -40,10 +40,10 @@ double resident_MiB() {
 }
 
 /// An engine that runs one episode after another.
-class Runner {
+class BenchedEngine {
  public:
-  Runner(const std::string& name, const osim::Model& model, const BenchOptions& options,
-         std::uint64_t seed)
+  BenchedEngine(const std::string& name, const osim::Model& model, const BenchOptions& options,
+                std::uint64_t seed)
       : engine_(simulation::make_engine(name, model, options.engine)),
         start_(simulation::default_state(model)),
         obstacles_(options.obstacles),
@@ -138,18 +138,18 @@ void add(BenchResult& sum, const BenchResult& part) {
   sum.cpu_s += part.cpu_s;
 }
 
-/// The runners of one engine, one a thread.
+/// Engines of one kind, one a thread.
 struct Team {
-  std::vector<std::unique_ptr<Runner>> runners;
+  std::vector<std::unique_ptr<BenchedEngine>> engines;
   BenchResult result;
 
   void run(double seconds, long steps) {
     const double start = wall_s();
     std::vector<std::thread> threads;
-    for (std::size_t i = 1; i < runners.size(); ++i) {
-      threads.emplace_back([&, i] { runners[i]->run(seconds, steps); });
+    for (std::size_t i = 1; i < engines.size(); ++i) {
+      threads.emplace_back([&, i] { engines[i]->run(seconds, steps); });
     }
-    runners[0]->run(seconds, steps);
+    engines[0]->run(seconds, steps);
     for (std::thread& thread : threads) thread.join();
     result.wall_s += wall_s() - start;
   }
@@ -158,12 +158,12 @@ struct Team {
 /// Rollouts of a second: the coordinates after each step.
 using Trace = std::vector<std::array<double, kCoordinates>>;
 
-Trace trace(Runner& runner) {
+Trace trace(BenchedEngine& benched) {
   Trace all;
-  runner.begin_episode();
+  benched.begin_episode();
   for (int i = 0; i < 100; ++i) {
-    const bool on = runner.step_once();
-    all.push_back(runner.engine().state().q);
+    const bool on = benched.step_once();
+    all.push_back(benched.engine().state().q);
     if (!on) break;
   }
   return all;
@@ -190,7 +190,8 @@ std::vector<BenchResult> bench(const std::vector<std::string>& engines, const os
     team.result.threads = options.threads;
     team.result.accuracy = options.engine.accuracy;
     for (int i = 0; i < options.threads; ++i) {
-      team.runners.push_back(std::make_unique<Runner>(name, model, options, options.seed + i));
+      team.engines.push_back(
+          std::make_unique<BenchedEngine>(name, model, options, options.seed + i));
     }
   }
   const long first = options.steps / 100;  // to warm up, before memory is looked at
@@ -205,7 +206,7 @@ std::vector<BenchResult> bench(const std::vector<std::string>& engines, const os
   }
   std::vector<BenchResult> results;
   for (Team& team : teams) {
-    for (const auto& runner : team.runners) add(team.result, runner->result());
+    for (const auto& benched : team.engines) add(team.result, benched->result());
     team.result.resident_MiB = resident_MiB();
     results.push_back(team.result);
   }
@@ -218,11 +219,11 @@ std::vector<AccuracyRow> accuracy_table(const osim::Model& model, const Accuracy
     bench.engine.accuracy = accuracy;
     std::vector<Trace> traces;
     for (int i = 0; i < options.rollouts; ++i) {
-      Runner runner(engine, model, bench, options.seed + i);
+      BenchedEngine benched(engine, model, bench, options.seed + i);
       const double cpu = thread_cpu_s();
-      traces.push_back(trace(runner));
+      traces.push_back(trace(benched));
       sum.cpu_s += thread_cpu_s() - cpu;
-      add(sum, runner.result());
+      add(sum, benched.result());
     }
     return traces;
   };

@@ -92,9 +92,10 @@ void expect_within_bounds(const Clip& clip, const Trajectory& points) {
   record("scale_by_fall", by_fall);
   record("take_off_s", found.run.take_off_s - take_off_s);
   record("landing_s", found.run.landing_s - landing_s);
-  const double true_way_m = clip.jump->length_m() * (model().thigh_m() + model().shank_m()) /
-                            (clip.proportions.thigh + clip.proportions.shank);
-  EXPECT_NEAR(found.run.samples.back().coordinates[1], true_way_m, 0.06);
+  const double true_displacement_m = clip.jump->length_m() *
+                                     (model().thigh_m() + model().shank_m()) /
+                                     (clip.proportions.thigh + clip.proportions.shank);
+  EXPECT_NEAR(found.run.samples.back().coordinates[1], true_displacement_m, 0.06);
   EXPECT_NEAR(found.run.take_off_s, take_off_s, 1 / clip.rate_hz);
   EXPECT_NEAR(found.run.landing_s, landing_s, 1 / clip.rate_hz);
 }

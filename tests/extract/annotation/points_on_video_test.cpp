@@ -44,7 +44,7 @@ imports::Detections moved(Move move) {
 }
 
 struct Told {
-  tracking::LabelledClip marked;
+  tracking::LabelledClip labelled;
   std::string warnings;
 };
 Told told(const imports::Detections& detections,
@@ -73,8 +73,8 @@ double farthest_px(const Trajectory& marks) {
 TEST(PointsOnVideo, ThatFitAreTakenWithoutAWord) {
   const Told result = told(truth());
   EXPECT_THAT(result.warnings, Not(HasSubstr("warning")));
-  EXPECT_LT(farthest_px(result.marked.marks), 1e-9);
-  EXPECT_EQ(result.marked.marks.width_px, 320);
+  EXPECT_LT(farthest_px(result.labelled.marks), 1e-9);
+  EXPECT_EQ(result.labelled.marks.width_px, 320);
 }
 
 TEST(PointsOnVideo, OfADeclaredSizeAreScaled) {
@@ -83,7 +83,7 @@ TEST(PointsOnVideo, OfADeclaredSizeAreScaled) {
   for (imports::ImportedFrame& frame : twice.frames) frame.width_px = 640, frame.height_px = 360;
   const Told declared = told(twice);
   EXPECT_THAT(declared.warnings, HasSubstr("640 x 360"));
-  EXPECT_LT(farthest_px(declared.marked.marks), 1e-9);
+  EXPECT_LT(farthest_px(declared.labelled.marks), 1e-9);
   for (imports::ImportedFrame& frame : twice.frames) frame.height_px = 480;
   EXPECT_ERROR(told(twice), "another video");
 }
@@ -93,7 +93,7 @@ TEST(PointsOnVideo, OfASizeThatTheUserSaysAreScaled) {
   options.import.size_px = {1, 1};
   const imports::Detections normalised =
       moved([](const Vector2d& p) { return Vector2d((p.x() + 0.5) / 320, (p.y() + 0.5) / 180); });
-  EXPECT_LT(farthest_px(told(normalised, options).marked.marks), 1e-9);
+  EXPECT_LT(farthest_px(told(normalised, options).labelled.marks), 1e-9);
   EXPECT_THAT(told(normalised).warnings, HasSubstr("normalised coordinates, not pixels"));
 }
 
@@ -119,7 +119,7 @@ TEST(PointsOnVideo, OfATrimmedCopyDoNotFollowIt) {
   EXPECT_THAT(result.warnings, HasSubstr("no points on the last 6"));
   tracking::PointsOnVideoOptions options;
   options.import.first_frame = -6;
-  EXPECT_EQ(told(early, options).marked.marks.frames.front().frame, 6);
+  EXPECT_EQ(told(early, options).labelled.marks.frames.front().frame, 6);
 }
 
 TEST(PointsOnVideo, OfAFileThatDoesNotCountADropout) {
@@ -131,7 +131,7 @@ TEST(PointsOnVideo, OfAFileThatDoesNotCountADropout) {
   EXPECT_THAT(result.warnings, HasSubstr("leap at frame 30"));
   EXPECT_THAT(result.warnings, HasSubstr("does not count 13 frames"));
   EXPECT_THAT(result.warnings, Not(HasSubstr("no points on the last")));
-  const auto& marks = result.marked.marks.frames;
+  const auto& marks = result.labelled.marks.frames;
   EXPECT_EQ(marks[29].frame, 29);
   EXPECT_EQ(marks[30].frame, 43);
   EXPECT_EQ(marks.back().frame, 95);
@@ -144,7 +144,7 @@ TEST(PointsOnVideo, OutsideThePictureAreLeftOutWhereTheyAreFew) {
         {-250, -456}, Source::detected, 0.9};
   const Told result = told(spoilt);
   EXPECT_THAT(result.warnings, HasSubstr("outside the picture of 320 x 180 px, as far as (-250"));
-  EXPECT_FALSE(result.marked.marks.frames[9][BodyPart::ankle_l].present());
+  EXPECT_FALSE(result.labelled.marks.frames[9][BodyPart::ankle_l].present());
   EXPECT_THAT(told(moved([](const Vector2d& p) -> Vector2d { return 2 * p; })).warnings,
               HasSubstr("another size"));
 }
@@ -154,7 +154,7 @@ TEST(PointsOnVideo, CountFramesFromOneWhereThatIsTheOnlyWay) {
   for (imports::ImportedFrame& frame : from_one.frames) ++frame.frame;
   const Told result = told(from_one);
   EXPECT_THAT(result.warnings, HasSubstr("count from 1"));
-  EXPECT_EQ(result.marked.marks.frames.front().frame, 0);
+  EXPECT_EQ(result.labelled.marks.frames.front().frame, 0);
   from_one.frames.back().frame += 13;
   EXPECT_ERROR(told(from_one), "points.csv: has points to frame");
 }

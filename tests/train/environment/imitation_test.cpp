@@ -53,20 +53,20 @@ TEST(ImitationOf, TheClipsOwnMotionIsTheMostLike) {
   const environment::Imitation imitation(clip_of("walk", 3 * kClipPeriod_s), {.reward_per_s = 2});
   for (double phase = 0; phase < 1; phase += 0.013) {
     const simulation::RunnerState own = of_clip(phase);
-    const double best = imitation.likeness(own, phase);
+    const double best = imitation.similarity(own, phase);
     EXPECT_GT(best, 0.998) << phase;
     EXPECT_LE(best, 1) << phase;
     EXPECT_NEAR(imitation.reward(own, phase, kClipStep_s), 2 * kClipStep_s * best, 1e-15);
-    EXPECT_LT(imitation.likeness(own, phase + 0.1), best) << "at another time";
+    EXPECT_LT(imitation.similarity(own, phase + 0.1), best) << "at another time";
     for (int k = 0; k < simulation::kCoordinates; ++k) {
       if (k == simulation::kPelvisX || k == simulation::kPelvisY) continue;
       for (const double off : {-0.3, 0.3}) {
         simulation::RunnerState other = own;
         other.q[k] += off;
-        EXPECT_LT(imitation.likeness(other, phase), best - 0.05);
+        EXPECT_LT(imitation.similarity(other, phase), best - 0.05);
         other = own;
         other.u[k] += 10 * off;
-        EXPECT_LT(imitation.likeness(other, phase), best - 0.01);
+        EXPECT_LT(imitation.similarity(other, phase), best - 0.01);
       }
     }
   }
@@ -75,10 +75,10 @@ TEST(ImitationOf, TheClipsOwnMotionIsTheMostLike) {
 TEST(ImitationOf, WhereverItWalksAndHoweverHighItIsTheSame) {
   const environment::Imitation imitation(clip_of("walk", kClipPeriod_s), {.reward_per_s = 1});
   simulation::RunnerState state = of_clip(0.3);
-  const double likeness = imitation.likeness(state, 0.3);
+  const double similarity = imitation.similarity(state, 0.3);
   state.q[simulation::kPelvisX] = 100;
   state.q[simulation::kPelvisY] = 0.7;
-  EXPECT_EQ(imitation.likeness(state, 0.3), likeness);
+  EXPECT_EQ(imitation.similarity(state, 0.3), similarity);
 }
 
 TEST(ImitationOf, ADifferenceOfTheWidthLeavesOneOverE) {
@@ -86,7 +86,7 @@ TEST(ImitationOf, ADifferenceOfTheWidthLeavesOneOverE) {
                                          {.reward_per_s = 1, .angle_deg = 20});
   simulation::RunnerState state = of_clip(0.3);
   for (double& q : state.q) q += 20 * std::numbers::pi / 180;
-  EXPECT_NEAR(imitation.likeness(state, 0.3), 0.8 / std::numbers::e + 0.2, 2e-3);
+  EXPECT_NEAR(imitation.similarity(state, 0.3), 0.8 / std::numbers::e + 0.2, 2e-3);
 }
 
 TEST(ImitationOf, AMovementThatDoesNotRepeatStandsStillBeforeAndAfter) {
@@ -94,9 +94,9 @@ TEST(ImitationOf, AMovementThatDoesNotRepeatStandsStillBeforeAndAfter) {
   EXPECT_EQ(imitation.phase_at(0.5, 3), 1);
   EXPECT_NEAR(imitation.phase_at(0.5, 0.1 * kClipPeriod_s), 0.6, 1e-12);
   simulation::RunnerState end = of_clip(1 - kClipStep_s / kClipPeriod_s);
-  EXPECT_LT(imitation.likeness(end, 1), 0.99);
+  EXPECT_LT(imitation.similarity(end, 1), 0.99);
   end.u.fill(0);
-  EXPECT_NEAR(imitation.likeness(end, 1), 1, 1e-12);
+  EXPECT_NEAR(imitation.similarity(end, 1), 1, 1e-12);
   const environment::Imitation strides(clip_of("walk", kClipPeriod_s), {.reward_per_s = 1});
   EXPECT_NEAR(strides.phase_at(0.5, 0.75 * kClipPeriod_s), 0.25, 1e-12);
 }

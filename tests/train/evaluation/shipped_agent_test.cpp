@@ -42,8 +42,8 @@ TEST(ShippedWalk, IsTheClips) {
   EXPECT_GT(evaluation.gait.duty_factor, 0.55);
   EXPECT_NEAR(evaluation.gait.leg_phase, 0.5, 0.1);
   EXPECT_EQ(evaluation.gait.flight_share, 0);
-  ASSERT_TRUE(evaluation.likeness);
-  EXPECT_GT(evaluation.likeness->inside_share, 0.7);  // 0.86; in Simbody 0.88
+  ASSERT_TRUE(evaluation.similarity);
+  EXPECT_GT(evaluation.similarity->inside_share, 0.7);  // 0.86; in Simbody 0.88
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tests/support/throws.h"
-#include "train/rollout/clip_likeness.h"
+#include "train/rollout/clip_similarity.h"
 #include "train/rollout/human_gait.h"
 #include "train/rollout/rollout.h"
 
@@ -74,14 +74,14 @@ TEST_F(Clockwork, IsLikeAClipWithItsAnglesAtEachPhase) {
     sample.phase = i / 35.0 - std::floor(i / 35.0);
     for (std::size_t k = 3; k < 9; ++k) sample.coordinates[k] = angle(sample.phase);
   }
-  const rollout::ClipLikeness same = rollout::likeness(rollout_, clip, model_);
+  const rollout::ClipSimilarity same = rollout::similarity(rollout_, clip, model_);
   EXPECT_LT(same.angle_rms_deg, 4);  // a hundredth of a second and a fortieth of a stride
   EXPECT_EQ(same.inside_share, 1);
   for (CalibratedSample& sample : clip.samples) sample.coordinates[4] += std::numbers::pi / 9;
-  const rollout::ClipLikeness other = rollout::likeness(rollout_, clip, model_);
+  const rollout::ClipSimilarity other = rollout::similarity(rollout_, clip, model_);
   EXPECT_NEAR(other.angle_rms_deg, 20 / std::sqrt(6.0), 1);
   EXPECT_NEAR(other.inside_share, 5.0 / 6, 0.02);
-  EXPECT_TRUE(std::isnan(rollout::likeness(rollout_, clip, model_, 100).inside_share));
+  EXPECT_TRUE(std::isnan(rollout::similarity(rollout_, clip, model_, 100).inside_share));
 }
 
 TEST(HumanGait, HoldsTheRunnersThatItIsOf) {

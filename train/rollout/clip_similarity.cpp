@@ -1,4 +1,4 @@
-#include "train/rollout/clip_likeness.h"
+#include "train/rollout/clip_similarity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ constexpr double kDeg = 1 / kDegree;    // of a rad
 
 }  // namespace
 
-ClipLikeness likeness(const Rollout& rollout, const CalibratedTrajectory& clip,
-                      const osim::Model& model, double from_s) {
+ClipSimilarity similarity(const Rollout& rollout, const CalibratedTrajectory& clip,
+                          const osim::Model& model, double from_s) {
   std::vector<double> strikes;  // of the right foot
   for (const FootContact& contact : foot_contacts(rollout, model))
     if (contact.side == 0 && contact.start_s >= from_s) strikes.push_back(contact.start_s);

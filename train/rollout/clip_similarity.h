@@ -6,7 +6,7 @@ namespace stride::rollout {
 
 /// How much a runner runs like a clip: its hips, knees and ankles against the clip's at the same
 /// share of a stride, which begins with the strike of the right foot. NaN where there is no stride.
-struct ClipLikeness {
+struct ClipSimilarity {
   double angle_rms_deg = 0;  // of the difference to the clip's mean stride
   double inside_share = 0;   // of angles within the clip's band
 };
@@ -16,7 +16,7 @@ struct ClipLikeness {
 inline constexpr double kNarrowestBand_deg = 10;
 
 /// Over the whole strides of the rollout after `from_s`.
-ClipLikeness likeness(const Rollout& rollout, const CalibratedTrajectory& clip,
-                      const osim::Model& model, double from_s = 2);
+ClipSimilarity similarity(const Rollout& rollout, const CalibratedTrajectory& clip,
+                          const osim::Model& model, double from_s = 2);
 
 }  // namespace stride::rollout
