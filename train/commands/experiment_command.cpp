@@ -107,7 +107,9 @@ void add_experiment_command(CLI::App& app) {
       ->required();
   command->add_option("--potential", request->potential,
                       "Instead of the potential of the first shaped arm");
-  command->add_option("--seeds", request->seeds, "1, 2, … so many, instead of the file's")
+  command
+      ->add_option("--seeds", request->seeds,
+                   "So many from the file's first, instead of the file's")
       ->check(CLI::PositiveNumber);
   command->add_option("--decisions", request->decisions, "Of each run, instead of the file's");
   command->add_option("--jobs", options.jobs, "Runs side by side")

@@ -32,7 +32,8 @@ struct Job {
 /// Paired seeds next to each other, so that an unfinished experiment can be compared.
 std::vector<Job> jobs_of(const ExperimentOptions& options) {
   std::vector<Job> jobs;
-  for (int seed = 1; seed <= options.experiment.seeds; ++seed)
+  const int first = options.experiment.first_seed;
+  for (int seed = first; seed < first + options.experiment.seeds; ++seed)
     for (const ExperimentArm& arm : options.experiment.arms) {
       const fs::path other = arm.curves / std::to_string(seed);
       const bool elsewhere = !arm.curves.empty() && fs::exists(other / "curve.csv");

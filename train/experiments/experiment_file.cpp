@@ -36,9 +36,11 @@ Sections sections_of(const fs::path& file) {
 /// The settings of all arms. Only title, preset and decisions must be there.
 void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file,
                   ExperimentFile& experiment) {
-  constexpr std::array<std::string_view, 9> kKeys{"title",  "preset", "decisions", "seeds", "claim",
-                                                  "better", "than",   "at",        "clip"};
-  std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)}};
+  constexpr std::array<std::string_view, 10> kKeys{"title",      "preset", "decisions", "seeds",
+                                                   "first_seed", "claim",  "better",    "than",
+                                                   "at",         "clip"};
+  std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)},
+                                           {"first_seed", std::to_string(experiment.first_seed)}};
   for (const TomlSetting& setting : settings) {
     const std::string key = setting.key();
     require(std::ranges::count(kKeys, key) > 0, "{}: {}: unknown key; before the arms there are {}",
@@ -51,14 +53,22 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
   experiment.title = texts["title"];
   experiment.preset = texts["preset"];
   // Integers are read and checked like the settings of a run.
-  training::TrainOptions numbers;
-  training::set_options(
-      {{{"run"}, "decisions", {texts["decisions"]}}, {{"run"}, "seed", {texts["seeds"]}}},
-      file.string(), numbers);
-  require(numbers.run.seed >= 1 && numbers.run.seed <= 1000, "{}: seeds = {}: must be in [1, 1000]",
-          file.string(), texts["seeds"]);
-  experiment.seeds = static_cast<int>(numbers.run.seed);
-  experiment.decisions = numbers.run.decisions;
+  const auto number = [&](const char* key) {
+    training::TrainOptions numbers;
+    training::set_options(
+        {{{"run"}, "decisions", {texts["decisions"]}}, {{"run"}, "seed", {texts[key]}}},
+        file.string(), numbers);
+    return numbers.run;
+  };
+  const auto positive = [&](const char* key) {
+    const auto value = number(key).seed;
+    require(value >= 1 && value <= 1000, "{}: {} = {}: must be in [1, 1000]", file.string(), key,
+            texts[key]);
+    return static_cast<int>(value);
+  };
+  experiment.seeds = positive("seeds");
+  experiment.first_seed = positive("first_seed");
+  experiment.decisions = number("seeds").decisions;
   if (!texts["clip"].empty())
     experiment.clip = (file.parent_path() / texts["clip"]).lexically_normal();
   experiment.claim = {.text = texts["claim"], .better = texts["better"], .than = texts["than"]};

@@ -28,8 +28,9 @@ struct ExperimentClaim {
 ///     title = "Baseline against shaping"
 ///     preset = "shaping"        # of every arm
 ///     decisions = 800000        # of each run
-///     seeds = 5                 # 1, 2, …, the same in each arm
-///     claim = "twice as far at half of the training"  # these five may be missing
+///     seeds = 5                 # so many, the same in each arm
+///     first_seed = 101          # 1 if not given, as the five that follow may be missing
+///     claim = "twice as far at half of the training"
 ///     better = "nearest"        # the last arm if not given
 ///     than = "baseline"         # the first arm if not given
 ///     at = 0.5                  # of the decisions: 0.1, 0.2, 0.3, 0.5 or 1, which is usual
@@ -45,7 +46,7 @@ struct ExperimentClaim {
 struct ExperimentFile {
   std::string title, preset;
   std::int64_t decisions = 0;
-  int seeds = 5;
+  int seeds = 5, first_seed = 1;
   ExperimentClaim claim;
   std::filesystem::path clip;       // empty: none
   std::vector<ExperimentArm> arms;  // in the order of the file

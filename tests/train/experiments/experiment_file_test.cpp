@@ -38,6 +38,18 @@ TEST(ExperimentFile, GivesTheArmsInTheOrderOfTheFile) {
   EXPECT_EQ(experiment.arms[0].train.shaping.index, "");
 }
 
+TEST(ExperimentFile, SeedsBeginWithTheFirst) {
+  const TemporaryFolder folder;
+  const std::string arm = "[a]\npotential = \"\"\n";
+  EXPECT_EQ(load(folder, kHeading + arm).first_seed, 1);
+  const experiments::ExperimentFile fresh =
+      load(folder, std::string(kHeading) + "seeds = 2\nfirst_seed = 101\n" + arm);
+  EXPECT_EQ(fresh.seeds, 2);
+  EXPECT_EQ(fresh.first_seed, 101);
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "first_seed = 0\n" + arm),
+               "first_seed = 0: must be in [1, 1000]");
+}
+
 TEST(ExperimentFile, SettingsOfTheCommandLineYieldToThoseOfAnArm) {
   const TemporaryFolder folder;
   const experiments::ExperimentFile experiment =
