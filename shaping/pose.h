@@ -90,6 +90,8 @@ struct Pose {
 /// A pose and how fast its parts move, m/s.
 struct MovingPose {
   Pose pose, velocity;
+
+  MovingPose mirrored() const { return {pose.mirrored(), velocity.mirrored()}; }
 };
 
 /// How far a part is from where it is in another pose; of the pelvis only the height.

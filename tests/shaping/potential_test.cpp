@@ -80,7 +80,7 @@ TEST(Potential, AVelocityCountsAsADistance) {
   motion.pose[PosePart::foot_l] += Eigen::Vector2d(0, 0.05);
   motion.velocity[PosePart::foot_l] += Eigen::Vector2d(0.6, 0.8);
   EXPECT_NEAR(potential(motion, 0.25), 2 * (4 / 0.01 + 1 / (0.0025 + 0.01 + 0.01)), 1e-9);
-  const MovingPose mirrored{motion.pose.mirrored(), motion.velocity.mirrored()};
+  const MovingPose mirrored = motion.mirrored();
   for (const auto& [index, name] : kPotentialIndices) {
     potential.index = index;
     EXPECT_NEAR(potential(mirrored, 0.75), potential(motion, 0.25), 1e-6) << name;

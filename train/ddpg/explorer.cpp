@@ -118,14 +118,14 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
     perturbed_actor_ = policy.actor;
     perturbed_actor_.parameters() = state_.perturbed;
   }
-  const Pose pose = environment_->pose();
   record = {};
-  record.pose = pose;
+  record.pose = environment_->pose();
   record.phase = phase();
   if (setup_.potential != nullptr) {
-    record.phi = (*setup_.potential)(pose, record.phase);
+    const MovingPose motion{record.pose, environment_->pose_velocity()};
+    record.phi = (*setup_.potential)(motion, record.phase);
     record.phi_mirrored =
-        (*setup_.potential)(pose.mirrored(), record.phase + setup_.potential->mirrored_after);
+        (*setup_.potential)(motion.mirrored(), record.phase + setup_.potential->mirrored_after);
   }
   features = features_.template cast<Scalar>();
   if (state_.over) {

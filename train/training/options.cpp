@@ -340,9 +340,6 @@ void TrainOptions::check() const {
   require(exploration.noise_free_fraction + exploration.parameter_share <= 1,
           "exploration.noise_free_fraction + exploration.parameter_share = {}: must be at most 1",
           exploration.noise_free_fraction + exploration.parameter_share);
-  require(shaping.velocity_s == 0 || run.learner == "ppo",
-          "shaping.velocity_s = {}: only ppo compares velocities: run.learner = {}",
-          shaping.velocity_s, run.learner);
 }
 
 namespace {

@@ -118,6 +118,19 @@ TEST(Explorer, ShapingTelescopesOverWholeRecordedEpisodes) {
   }
 }
 
+TEST(Explorer, ComparesVelocitiesWhereThePotentialDoes) {
+  Potential potential = some_potential();
+  potential.velocity_s = 0.1;
+  const Recorded recorded = record(200, potential, 3, -1);
+  for (std::int64_t round = 0; round < recorded.buffer.rounds(); ++round) {
+    const auto& r = recorded.buffer.record(round, 0);
+    const double v = recorded.buffer.features(round, 0)[1];
+    const MovingPose motion{r.pose, {{v, 0.1 * v, 0, 0, 0, -0.1 * v, 0, 0, 0}}};
+    EXPECT_EQ(r.phi, potential(motion, r.phase));
+    EXPECT_EQ(r.phi_mirrored, potential(motion.mirrored(), r.phase + 0.5));
+  }
+}
+
 TEST(Explorer, RecordsStatesInTheirOrderWithTheLastOfAnEpisode) {
   const Potential potential = some_potential();
   const Recorded recorded = record(500, potential, 3, -1);
