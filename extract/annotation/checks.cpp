@@ -141,7 +141,7 @@ std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double st
   for (const auto& [toe, ankle] : {std::pair(BodyPart::toe_r, BodyPart::ankle_r),
                                    std::pair(BodyPart::toe_l, BodyPart::ankle_l)}) {
     const bool has_toes = std::ranges::any_of(
-        trajectory.frames, [&](const TrajectoryFrame& f) { return f[toe].present(); });
+        trajectory.frames, [toe = toe](const TrajectoryFrame& f) { return f[toe].present(); });
     add_stances(trajectory, has_toes ? toe : ankle, stride_frames, spots);
   }
   if (spots.size() < 2) return std::nullopt;

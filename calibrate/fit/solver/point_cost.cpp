@@ -89,7 +89,8 @@ bool CostByChainRule<Residual>::Evaluate(double const* const* parameters, double
   }
   const auto leg = variables<Jet, 3>(angles.data(), kLeg);
   std::array<Jet, 2> r;
-  const auto evaluate = [&](auto... on_foot) {
+  const auto evaluate = [this, &camera = camera, &body = body, &sides = sides, &trunk, &tilt = tilt,
+                         &leg, &phase, &pelvis = pelvis, &r](auto... on_foot) {
     residual_.at_pose(variables<Jet, camera::size>(camera, kCamera).data(),
                       variables<Jet, body::size>(body, kBody).data(),
                       variables<Jet, sides::size>(sides, kSides).data(),

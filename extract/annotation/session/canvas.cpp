@@ -136,7 +136,7 @@ void AnnotationCanvas::draw_clicks() {
   for (const auto& [a, b] : kBones) {
     if (!here->placed(a) || !here->placed(b)) continue;
     const bool wrong = std::ranges::any_of(
-        warnings, [&](const BoneWarning& w) { return w.from == a && w.to == b; });
+        warnings, [a = a, b = b](const BoneWarning& w) { return w.from == a && w.to == b; });
     draw_line(canvas_, place(a), place(b), wrong ? colour::kWrong : colour(b), 2);
     if (wrong)
       draw_text(canvas_, "length?",

@@ -119,7 +119,7 @@ void AnnotationCanvas::draw_ankles(const cv::Rect& lane) {
   for (const auto& [number, frame] : s_.keypoints().frames)
     add(
         number,
-        [&](BodyPart part) {
+        [&frame = frame](BodyPart part) {
           return frame.placed(part) ? frame[part]->p_px : Eigen::Vector2d::Constant(std::nan(""));
         },
         true);

@@ -122,9 +122,7 @@ TEST(Train, ContinuedWithMoreDecisionsItGivesTheCurveOfALongerRun) {
 TEST(Train, StoppedItKeepsACheckpointAndContinues) {
   TemporaryFolder folder;
   const training::TrainOptions options = small_run();
-  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted = trained(options, {}, folder / "a");
-  const auto duration = std::chrono::steady_clock::now() - begin;
   training::make_run_folder(options, {}, folder / "b");
   std::atomic<bool> stop = true;
   EXPECT_FALSE(training::train(folder / "b", point_mass, stop, nullptr).finished);
@@ -156,9 +154,7 @@ TEST(Train, AFullDiskIsSurvivedAndTheRunContinuesFromTheCheckpointBefore) {
   TemporaryFolder folder;
   training::TrainOptions options = small_run();
   options.run.checkpoint_s = 0.01;
-  const auto begin = std::chrono::steady_clock::now();
   const std::string uninterrupted = trained(options, {}, folder / "a");
-  const auto duration = std::chrono::steady_clock::now() - begin;
   options.run.decisions = 1000;
   trained(options, {}, folder / "b");
   const auto checkpoint = fs::last_write_time(training::checkpoint_file(folder / "b"));
