@@ -1,5 +1,5 @@
 # Writes OUTPUT, which makes each suite of a GoogleTest program one test of ctest: a process for each test would spend
-# most of its time loading the libraries of OpenCV.
+# most of its time loading the libraries of OpenCV. With BATCH > 1 so many suites are one test, without the tests LEFT_OUT.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "\;" listed "${listed}")
 string(REPLACE "\n" ";" lines "${listed}")
@@ -14,8 +14,22 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 set(script "")
-foreach(suite IN LISTS suites)
-  string(APPEND script "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-         "set_tests_properties([=[${suite}]=] PROPERTIES LABELS suite COST ${tests_of_${suite}} WORKING_DIRECTORY [=[${FOLDER}]=])\n")
-endforeach()
+while(NOT suites STREQUAL "")
+  list(SUBLIST suites 0 ${BATCH} batch)
+  list(REMOVE_ITEM suites ${batch})
+  set(name "")
+  set(filter "--gtest_filter=")
+  set(cost 0)
+  foreach(suite IN LISTS batch)
+    string(APPEND name "${suite} ")
+    string(APPEND filter "${suite}.*:")
+    math(EXPR cost "${cost} + ${tests_of_${suite}}")
+  endforeach()
+  string(STRIP "${name}" name)
+  if(LEFT_OUT)
+    string(APPEND filter "-${LEFT_OUT}")
+  endif()
+  string(APPEND script "add_test([=[${name}]=] [=[${PROGRAM}]=] [=[${filter}]=])\n"
+         "set_tests_properties([=[${name}]=] PROPERTIES LABELS suite COST ${cost} WORKING_DIRECTORY [=[${FOLDER}]=])\n")
+endwhile()
 file(WRITE ${OUTPUT} "${script}")
