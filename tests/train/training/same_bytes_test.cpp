@@ -58,7 +58,7 @@ TEST_F(SameBytes, OfDdpg) {
 TEST_F(SameBytes, OfPpo) {
   const std::string curve =
       curve_hash("ppo", {"run.decisions=12000", "run.evaluate_every=4000", "run.threads=2",
-                         "shaping.scale=0.004", "reward.backward_knees=0"});
+                         "shaping.scale=0.004", "reward.backward_knees=0", "ppo.lambda=0.95"});
   EXPECT_HASH(curve, "d5f22f22f35f50f1ff4fbf8879a89d66adfc3c7185a65b0e9cc53f9f7794d910");
 }
 

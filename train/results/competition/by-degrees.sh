@@ -11,7 +11,7 @@ reference=$runs/fast.calibrated.csv
 . train/results/competition/stage.sh
 
 # Few obstacles, half of the environments start on the fast agent's run.
-rules="--preset ppo --set reward.backward_knees=0 --set environment.rules=nips2017 --set environment.difficulty=2
+rules="--preset ppo --set ppo.lambda=0.95 --set reward.backward_knees=0 --set environment.rules=nips2017 --set environment.difficulty=2
   --set environment.max_obstacles=10 --set observation.robust=true --set run.evaluate_every=200000
   --set run.evaluation_episodes=4"
 mostly_flat="--set environment.flat_share=0.8 --set environment.few_share=0.1"

@@ -9,7 +9,7 @@ reference=train/results/human.calibrated.csv
 . train/results/competition/stage.sh
 
 # The rules with all their oddities: mostly on flat ground, among some obstacles, among many.
-stage flat 1208320 --preset ppo --set environment.rules=nips2017 --set environment.difficulty=2 \
+stage flat 1208320 --preset ppo --set ppo.lambda=0.95 --set environment.rules=nips2017 --set environment.difficulty=2 \
   --set environment.max_obstacles=10 --set observation.robust=true --set environment.flat_share=0.8 \
   --set environment.few_share=0.1 --set run.evaluate_every=200000 --set run.evaluation_episodes=4
 stage some 2603008 --preset competition

@@ -1,7 +1,7 @@
 #!/bin/sh
 # What the fastest agent gains where one thing in its model is other: limits.sh RUN [FOLDER [DECISIONS]]. RUN is the
 # agent's run folder, from whose networks every arm goes on:
-#   stride train --preset ppo --potential train/results/human.potential.json --seed 3 --out runs/fast
+#   stride train --preset ppo --set ppo.lambda=0.95 --potential train/results/human.potential.json --seed 3 --out runs/fast
 set -eu
 cd "$(dirname "$0")/../../.."
 stride=${STRIDE:-build/release/stride} from=$1 runs=${2:-runs/limits} decisions=${3:-120000}
@@ -22,7 +22,7 @@ arm() {
   [ -e "$runs/$1/config.toml" ] ||
     $stride train --preset ppo --baseline --reference train/results/human.calibrated.csv --from "$from" --seed 21 \
       --decisions "$decisions" --out "$runs/$1" --set environment.model="$runs/$1.osim" --set ppo.alive_per_s=0.3 \
-      --set ppo.entropy=0.001 --set ppo.kl=0.006 --set run.evaluate_every=40000
+      --set ppo.entropy=0.001 --set ppo.kl=0.006 --set ppo.lambda=0.95 --set run.evaluate_every=40000
 }
 
 arm same         ''                max_isometric_force        1
