@@ -11,10 +11,14 @@ set title '' noenhanced
 set terminal svg size 720,420 font 'sans,12' background rgb 'white'
 set output './decisions.svg'
 plot './decisions.csv' index 0 using ($1/1e6):($2-$3):($2+$3) with filledcurves fc rgb '#1b6ca8' fs transparent solid 0.2 noborder notitle, \
-  '' index 0 using ($1/1e6):2 with lines lw 2 lc rgb '#1b6ca8' title 'knees (5 seeds)' noenhanced
+  '' index 0 using ($1/1e6):2 with lines lw 2 lc rgb '#1b6ca8' title 'lambda-095 (5 seeds)' noenhanced, \
+  './decisions.csv' index 1 using ($1/1e6):($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
+  '' index 1 using ($1/1e6):2 with lines lw 2 lc rgb '#d1495b' title 'lambda-08 (5 seeds)' noenhanced
 unset output
 set terminal pngcairo size 1440,840 font 'sans,20'
 set output './decisions.png'
 plot './decisions.csv' index 0 using ($1/1e6):($2-$3):($2+$3) with filledcurves fc rgb '#1b6ca8' fs transparent solid 0.2 noborder notitle, \
-  '' index 0 using ($1/1e6):2 with lines lw 2 lc rgb '#1b6ca8' title 'knees (5 seeds)' noenhanced
+  '' index 0 using ($1/1e6):2 with lines lw 2 lc rgb '#1b6ca8' title 'lambda-095 (5 seeds)' noenhanced, \
+  './decisions.csv' index 1 using ($1/1e6):($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
+  '' index 1 using ($1/1e6):2 with lines lw 2 lc rgb '#d1495b' title 'lambda-08 (5 seeds)' noenhanced
 unset output
