@@ -141,7 +141,7 @@ void write_report(const std::vector<Job>& jobs, const ExperimentOptions& options
                                                      task::milestone_m(experiment.task().name)),
                                           options.command));
   for (const std::string& against : {experiment.against(), std::string("wall")})
-    plot(arms, {.against = against, .out = options.report / against});
+    plot(arms, {.against = against, .level = experiment.level, .out = options.report / against});
 }
 
 }  // namespace

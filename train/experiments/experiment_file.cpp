@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 
+#include "extract/io/csv.h"
 #include "extract/io/data_file.h"
 #include "extract/io/error.h"
 #include "train/experiments/experiment_report.h"
@@ -36,9 +39,9 @@ Sections sections_of(const fs::path& file) {
 /// The settings of all arms. Only title, preset and decisions must be there.
 void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file,
                   ExperimentFile& experiment) {
-  constexpr std::array<std::string_view, 10> kKeys{"title",      "preset", "decisions", "seeds",
-                                                   "first_seed", "claim",  "better",    "than",
-                                                   "at",         "clip"};
+  constexpr std::array<std::string_view, 12> kKeys{
+      "title",  "preset", "decisions", "seeds", "first_seed", "claim",
+      "better", "than",   "at",        "clip",  "level",      "level_label"};
   std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)},
                                            {"first_seed", std::to_string(experiment.first_seed)}};
   for (const TomlSetting& setting : settings) {
@@ -72,6 +75,14 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
   if (!texts["clip"].empty())
     experiment.clip = (file.parent_path() / texts["clip"]).lexically_normal();
   experiment.claim = {.text = texts["claim"], .better = texts["better"], .than = texts["than"]};
+  require(texts["level"].empty() == texts["level_label"].empty(),
+          "{}: level and level_label: one needs the other", file.string());
+  if (!texts["level"].empty()) {
+    const std::optional<double> level = cell_number(texts["level"]);
+    require(level.has_value() && std::isfinite(*level), "{}: level = {}: must be a number, metres",
+            file.string(), texts["level"]);
+    experiment.level = {*level, texts["level_label"]};
+  }
   if (texts["at"].empty()) return;
   const std::string& at = texts["at"];
   const auto share = std::ranges::find_if(

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "train/experiments/plot.h"
 #include "train/training/options.h"
 
 namespace stride::experiments {
@@ -29,12 +30,14 @@ struct ExperimentClaim {
 ///     preset = "shaping"        # of every arm
 ///     decisions = 800000        # of each run
 ///     seeds = 5                 # so many, the same in each arm
-///     first_seed = 101          # 1 if not given, as the five that follow may be missing
+///     first_seed = 101          # 1 if not given, as the seven that follow may be missing
 ///     claim = "twice as far at half of the training"
 ///     better = "nearest"        # the last arm if not given
 ///     than = "baseline"         # the first arm if not given
 ///     at = 0.5                  # of the decisions: 0.1, 0.2, 0.3, 0.5 or 1, which is usual
 ///     clip = "../human.calibrated.csv"        # whose gait the arms' are compared with
+///     level = 11.2              # m, drawn as a line
+///     level_label = "the demonstration"
 ///
 ///     [baseline]                # the arm that the others are compared with is the first
 ///     potential = ""            # none
@@ -48,7 +51,8 @@ struct ExperimentFile {
   std::int64_t decisions = 0;
   int seeds = 5, first_seed = 1;
   ExperimentClaim claim;
-  std::filesystem::path clip;       // empty: none
+  std::filesystem::path clip;  // empty: none
+  Level level;
   std::vector<ExperimentArm> arms;  // in the order of the file
 
   /// What the agents of all arms are to do.

@@ -136,6 +136,9 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
         i == 0 ? "plot" : ", \\\n ", gnuplot_file(name + ".csv"), i, x, colour, crowded ? 0.1 : 0.2,
         i, x, colour, gnuplot_string(bands[i].label));
   }
+  if (!options.level.label.empty())
+    lines += fmt::format(", \\\n  {} with lines lw 2 dt 2 lc rgb 'black' title {} noenhanced",
+                         options.level.value, gnuplot_string(options.level.label));
   std::string script = fmt::format(
       "# Run gnuplot on this file in its folder. Mean and standard error over seeds.\n"
       "set datafile separator ','\nset {}\nset grid lc rgb '#dddddd'\n"

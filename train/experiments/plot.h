@@ -8,10 +8,17 @@
 
 namespace stride::experiments {
 
+/// A level that curves are compared with, dashed: the demonstration's own distance, say.
+struct Level {
+  double value = 0;
+  std::string label;  // empty: none is drawn
+};
+
 struct PlotOptions {
   std::string against = "decisions";             // decisions, simulated (hours), wall (hours)
   std::string column = "evaluation_distance_m";  // of curve.csv
   std::string title = {};
+  Level level = {};
   std::filesystem::path out = "plot";  // plot.svg, plot.png, plot.csv, plot.gnuplot
 };
 

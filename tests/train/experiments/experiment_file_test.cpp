@@ -38,6 +38,18 @@ TEST(ExperimentFile, GivesTheArmsInTheOrderOfTheFile) {
   EXPECT_EQ(experiment.arms[0].train.shaping.index, "");
 }
 
+TEST(ExperimentFile, ALevelHasALabel) {
+  const TemporaryFolder folder;
+  const std::string arm = "[a]\npotential = \"\"\n";
+  const experiments::ExperimentFile experiment =
+      load(folder, kHeading + ("level = 11.2\nlevel_label = \"the weak agent\"\n" + arm));
+  EXPECT_EQ(experiment.level.value, 11.2);
+  EXPECT_EQ(experiment.level.label, "the weak agent");
+  EXPECT_ERROR(load(folder, kHeading + ("level = 11.2\n" + arm)), "one needs the other");
+  EXPECT_ERROR(load(folder, kHeading + ("level = \"high\"\nlevel_label = \"x\"\n" + arm)),
+               "level = high: must be a number");
+}
+
 TEST(ExperimentFile, SeedsBeginWithTheFirst) {
   const TemporaryFolder folder;
   const std::string arm = "[a]\npotential = \"\"\n";

@@ -61,6 +61,15 @@ TEST(Plot, DrawsMeanAndStandardErrorAndLeavesScriptAndFigures) {
   EXPECT_TRUE(fs::exists(folder / "p" / "figure.gnuplot"));
 }
 
+TEST(Plot, ALevelIsDrawnWithItsLabel) {
+  TemporaryFolder folder;
+  write_run(folder / "arm" / "1", 1);
+  experiments::plot(experiments::arms_of({folder / "arm" / "1"}),
+                    {.level = {4.5, "the weak agent"}, .out = folder / "figure"});
+  EXPECT_THAT(read_file(folder / "figure.gnuplot"), ::testing::HasSubstr("4.5 with lines"));
+  EXPECT_THAT(read_file(folder / "figure.svg"), ::testing::HasSubstr("the weak agent"));
+}
+
 TEST(Plot, BeyondAMillionTheAxisCountsMillions) {
   TemporaryFolder folder;
   write_run(folder / "run", 1, 150'000);

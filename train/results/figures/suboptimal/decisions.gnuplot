@@ -15,7 +15,8 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 1 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
   '' index 1 using 1:2 with lines lw 2 lc rgb '#d1495b' title 'human (5 seeds)' noenhanced, \
   './decisions.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.2 noborder notitle, \
-  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced
+  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced, \
+  11.2 with lines lw 2 dt 2 lc rgb 'black' title 'the weak agent' noenhanced
 unset output
 set terminal pngcairo size 1440,840 font 'sans,20'
 set output './decisions.png'
@@ -24,5 +25,6 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 1 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
   '' index 1 using 1:2 with lines lw 2 lc rgb '#d1495b' title 'human (5 seeds)' noenhanced, \
   './decisions.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.2 noborder notitle, \
-  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced
+  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced, \
+  11.2 with lines lw 2 dt 2 lc rgb 'black' title 'the weak agent' noenhanced
 unset output

@@ -15,7 +15,8 @@ plot './wall.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#1b6
   './wall.csv' index 1 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
   '' index 1 using 1:2 with lines lw 2 lc rgb '#d1495b' title 'human (5 seeds)' noenhanced, \
   './wall.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.2 noborder notitle, \
-  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced
+  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced, \
+  11.2 with lines lw 2 dt 2 lc rgb 'black' title 'the weak agent' noenhanced
 unset output
 set terminal pngcairo size 1440,840 font 'sans,20'
 set output './wall.png'
@@ -24,5 +25,6 @@ plot './wall.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#1b6
   './wall.csv' index 1 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d1495b' fs transparent solid 0.2 noborder notitle, \
   '' index 1 using 1:2 with lines lw 2 lc rgb '#d1495b' title 'human (5 seeds)' noenhanced, \
   './wall.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.2 noborder notitle, \
-  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced
+  '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'weak (5 seeds)' noenhanced, \
+  11.2 with lines lw 2 dt 2 lc rgb 'black' title 'the weak agent' noenhanced
 unset output
