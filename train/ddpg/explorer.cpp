@@ -118,11 +118,11 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
     perturbed_actor_ = policy.actor;
     perturbed_actor_.parameters() = state_.perturbed;
   }
+  const MovingPose motion = environment_->motion();
   record = {};
-  record.pose = environment_->pose();
+  record.pose = motion.pose;
   record.phase = phase();
   if (setup_.potential != nullptr) {
-    const MovingPose motion{record.pose, environment_->pose_velocity()};
     record.phi = (*setup_.potential)(motion, record.phase);
     record.phi_mirrored =
         (*setup_.potential)(motion.mirrored(), record.phase + setup_.potential->mirrored_after);

@@ -110,7 +110,8 @@ class ReplayBuffer {
   /// Draws decisions uniformly, with replacement.
   void sample(const SampleOptions& options, Random& random, Batch<Scalar>& batch) const;
 
-  /// Recomputes Φ of every record from the stored poses and phases.
+  /// Recomputes Φ of every record from the stored poses and phases. Velocities are not stored:
+  /// throws Error for a potential that compares them.
   void set_potential(const Potential& potential);
 
  private:

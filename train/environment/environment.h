@@ -61,6 +61,8 @@ class Environment {
   /// How fast its parts move, m/s.
   virtual Pose pose_velocity() const = 0;
 
+  MovingPose motion() const { return {pose(), pose_velocity()}; }
+
   /// Simulated time since reset(), and the measure of the task since then: of a run the distance
   /// that the pelvis covered.
   virtual double time_s() const = 0;

@@ -56,22 +56,20 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
   experiment.title = texts["title"];
   experiment.preset = texts["preset"];
   // Integers are read and checked like the settings of a run.
-  const auto number = [&](const char* key) {
-    training::TrainOptions numbers;
-    training::set_options(
-        {{{"run"}, "decisions", {texts["decisions"]}}, {{"run"}, "seed", {texts[key]}}},
-        file.string(), numbers);
-    return numbers.run;
+  const auto read_as = [&](const char* setting, const char* key) {
+    training::TrainOptions options;
+    training::set_options({{{"run"}, setting, {texts[key]}}}, file.string(), options);
+    return options.run;
   };
-  const auto positive = [&](const char* key) {
-    const auto value = number(key).seed;
+  const auto seed = [&](const char* key) {
+    const auto value = read_as("seed", key).seed;
     require(value >= 1 && value <= 1000, "{}: {} = {}: must be in [1, 1000]", file.string(), key,
             texts[key]);
     return static_cast<int>(value);
   };
-  experiment.seeds = positive("seeds");
-  experiment.first_seed = positive("first_seed");
-  experiment.decisions = number("seeds").decisions;
+  experiment.seeds = seed("seeds");
+  experiment.first_seed = seed("first_seed");
+  experiment.decisions = read_as("decisions", "decisions").decisions;
   if (!texts["clip"].empty())
     experiment.clip = (file.parent_path() / texts["clip"]).lexically_normal();
   experiment.claim = {.text = texts["claim"], .better = texts["better"], .than = texts["than"]};

@@ -21,8 +21,7 @@ double Slot::phase() const {
 
 double Slot::potential() const {
   if (setup_.potential == nullptr) return 0;
-  return (*setup_.potential)(MovingPose{environment_->pose(), environment_->pose_velocity()},
-                             phase());
+  return (*setup_.potential)(environment_->motion(), phase());
 }
 
 void Slot::reset() {

@@ -9,15 +9,9 @@ namespace stride {
 namespace {
 
 Potential some_potential() {
-  Potential potential;
+  Potential potential = point_mass_potential();
   potential.period_s = 0.37;
   potential.weight = 0.3;
-  for (int k = 0; k < 8; ++k) {
-    Keyframe key;
-    key.phase = k / 8.0;
-    key.pose = {{0.9, 0.05 * k, -0.4, 0.1, -0.8, -0.02 * k, -0.4, 0.1, -0.8 + 0.01 * k}};
-    potential.keyframes.push_back(key);
-  }
   return potential;
 }
 
