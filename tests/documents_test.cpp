@@ -91,10 +91,15 @@ TEST(Documents, LinksLeadToFilesAndHeadings) {
 }
 
 /// A preset that names a suite of an older name would leave it out without a word.
-TEST(Documents, PresetsRunSuitesThatExist) {
+std::string sources_of_tests() {
   std::string tests;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / "tests"))
     if (entry.path().extension() == ".cpp") tests += read(entry.path());
+  return tests;
+}
+
+TEST(Documents, PresetsRunSuitesThatExist) {
+  const std::string tests = sources_of_tests();
   const std::string presets = read(kRoot / "CMakePresets.json");
   const std::regex filter("\"include\": \\{\"name\": \"\\^\\(([^)]*)\\)"), word("\\w+");
   std::smatch found;
@@ -104,6 +109,23 @@ TEST(Documents, PresetsRunSuitesThatExist) {
        name != std::sregex_iterator(); ++name)
     EXPECT_TRUE(std::regex_search(tests, std::regex("TEST(_F|_P)?\\(" + name->str() + ",")))
         << name->str();
+}
+
+TEST(Documents, WhatTheSanitizersLeaveOutExists) {
+  const std::string tests = sources_of_tests(), lists = read(kRoot / "tests/CMakeLists.txt");
+  const std::size_t begin = lists.find("string(CONCAT STRIDE_LEFT_OUT");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string list = lists.substr(begin, lists.find("endif()", begin) - begin);
+  const std::regex entry(R"((?:\w+/)?(\w+)\.(\w+|\*))");
+  int count = 0;
+  for (auto left_out = std::sregex_iterator(list.begin(), list.end(), entry);
+       left_out != std::sregex_iterator(); ++left_out, ++count) {
+    const std::string name = (*left_out)[2] == "*" ? "\\w+" : (*left_out)[2].str();
+    EXPECT_TRUE(std::regex_search(
+        tests, std::regex("TEST(_F|_P)?\\(" + (*left_out)[1].str() + ",\\s*" + name + "\\)")))
+        << (*left_out)[0];
+  }
+  EXPECT_GT(count, 10);
 }
 
 TEST(Documents, NumbersOfTheFirstPageAreOnThePageOfClaims) {
