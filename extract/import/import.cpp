@@ -3,9 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 #include "extract/import/formats/formats.h"
-#include "extract/import/networks/networks.h"
+#include "extract/import/networks/ultralytics.h"
 #include "extract/import/parsing/people.h"
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
@@ -17,41 +18,30 @@ namespace stride::imports {
 namespace fs = std::filesystem;
 namespace {
 
+struct NamedFormat {
+  std::string_view name;
+  const Format* format;
+};
+
+#define STRIDE_NAMED_FORMAT(name) NamedFormat{#name, &formats::name},
+constexpr std::array kFormats{STRIDE_IMPORT_FORMATS(STRIDE_NAMED_FORMAT)};
+#undef STRIDE_NAMED_FORMAT
+
+const Format& format_of(std::string_view name) {
+  return *std::ranges::find(kFormats, name, &NamedFormat::name)->format;
+}
+
 /// Which format a text is. Empty: none that we know.
-std::string sniff(std::string_view content, const std::string& file) {
-  const auto start = content.find_first_not_of(" \t\n");
-  if (start == std::string_view::npos) return "";
-  const auto has = [&](std::string_view text) { return content.find(text) != content.npos; };
-  if ((content[start] == '[' || content[start] == '{') && !has("\"pose_keypoints_2d\"")) {
-    if (has("\"visible\"")) return "ultralytics";
-    if (has("\"visibility\"") || has("andmarks\"")) return "mediapipe";
-    if (has("\"instances\"") && !has("\"instance_info\"")) return "rtmpose";
-    if (has("\"keypoints\"") && (has("\"scores\"") || has("\"keypoint_scores\"")) &&
-        !has("\"instance_info\""))
-      return "rtmpose";
-  }
-  if (content[start] == '[') return has("\"idx\"") || has("\"box\"") ? "alphapose" : "coco";
-  if (content[start] == '{') {
-    if (has("\"people\"")) return "openpose";
-    if (has("\"instance_info\"")) return "mmpose";
-    if (has("\"annotations\"")) return "coco";
-    return has("\"stride points\"") ? "json" : "";
-  }
-  if (content[start] == '<') return has("<annotations") ? "cvat" : "";
-  const TextTable table = read_text_table(content.substr(0, content.find('\n', 16384)), file);
-  if (table.lines.empty()) return "";
-  const std::vector<std::string>& cells = table.lines.front().cells;
-  const std::string& first = cells.front();
-  const auto names = [&](std::string_view name) {
-    return std::ranges::any_of(cells, [&](const auto& c) { return c.find(name) != c.npos; });
-  };
-  if (first == "scorer" || first == "bodyparts") return "deeplabcut";
-  if (first == "track" && names("frame_idx")) return "sleap";
-  if (first.starts_with("PathFileType")) return "trc";
-  if (first == "Time") return "kinovea";
-  if (names("_cam1_X")) return "dltdv";
-  if (is_mediapipe(table.lines.front())) return "mediapipe";
-  return first == "frame" ? "csv" : "";
+std::string recognised(std::string_view text, const std::string& file) {
+  const FileText asked(text, file);
+  std::string_view best;
+  Certainty most = Certainty::no;
+  for (const auto& [name, format] : kFormats)
+    if (const Certainty certainty = format->is_it(asked); certainty > most) {
+      most = certainty;
+      best = name;
+    }
+  return std::string(best);
 }
 
 /// What to do with a file of another kind. Throws Error if it holds no text at all.
@@ -91,15 +81,6 @@ int frame_of(const fs::path& file, std::string_view format) {
   return from_1 ? *frame - 1 : *frame;
 }
 
-using Reader = ImportedFile (*)(std::string_view, const std::string&, const ImportOptions&);
-const std::vector<std::pair<std::string, Reader>>& readers();
-
-ImportedFile read_as(const std::string& format, std::string_view text, const std::string& file,
-                     const ImportOptions& options) {
-  return std::ranges::find(readers(), format, [](const auto& r) { return r.first; })
-      ->second(text, file, options);
-}
-
 /// A file a frame: OpenPose's, Ultralytics' .txt, or any format that has one. Sets `format`.
 ImportedFile read_folder(const fs::path& folder, std::string& format,
                          const ImportOptions& options) {
@@ -118,48 +99,20 @@ ImportedFile read_folder(const fs::path& folder, std::string& format,
   if (format.empty()) {
     const std::string found =
         are_labels ? "ultralytics"
-                   : sniff(decoded_text(read_file(files.front()), files.front().string()),
-                           files.front().string());
-    format =
-        found == "mediapipe" || found == "ultralytics" || found == "rtmpose" ? found : "openpose";
+                   : recognised(decoded_text(read_file(files.front()), files.front().string()),
+                                files.front().string());
+    format = !found.empty() && format_of(found).in_folders ? found : "openpose";
   }
   ImportedFile content;
   for (const fs::path& file : files) {
     const int frame = frame_of(file, format);
     const std::string text = decoded_text(read_file(file), file.string());
     DetectedPeople more = are_labels ? read_ultralytics_labels(text, file.string(), frame).people
-                                     : read_as(format, text, file.string(), options).people;
+                                     : format_of(format).read(text, file.string(), options).people;
     for (DetectedPerson& person : more) person.frame = frame;
     content.people.insert(content.people.end(), more.begin(), more.end());
   }
   return content;
-}
-
-/// Every format by its name.
-const std::vector<std::pair<std::string, Reader>>& readers() {
-  static const std::vector<std::pair<std::string, Reader>> readers{
-      {"openpose",
-       [](std::string_view content, const std::string& file, const ImportOptions&) {
-         const auto frame = last_number(fs::path(file).stem().string());
-         return read_openpose(content, file, frame.value_or(0));
-       }},
-      {"deeplabcut", read_deeplabcut},
-      {"coco", read_coco},
-      {"alphapose", read_coco},
-      {"mmpose", read_mmpose},
-      {"sleap", read_sleap},
-      {"trc", read_trc},
-      {"cvat", read_cvat},
-      {"kinovea", read_kinovea},
-      {"dltdv", read_dltdv},
-      {"mediapipe", read_mediapipe},
-      {"ultralytics", read_ultralytics},
-      {"rtmpose", read_rtmpose},
-      {"csv", read_own_csv},
-      {"json", [](std::string_view content, const std::string& file, const ImportOptions&) {
-         return read_own_json(content, file);
-       }}};
-  return readers;
 }
 
 }  // namespace
@@ -167,7 +120,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
 const std::vector<std::string>& import_formats() {
   static const std::vector<std::string> formats = [] {
     std::vector<std::string> names;
-    for (const auto& [name, reader] : readers()) names.push_back(name);
+    for (const auto& [name, format] : kFormats) names.emplace_back(name);
     return names;
   }();
   return formats;
@@ -180,9 +133,7 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
           "format = '{}': must be one of {}", format, fmt::join(import_formats(), ", "));
   ImportedFile content;
   if (fs::is_directory(path)) {
-    const bool has_folders = format.empty() || format == "openpose" || format == "mediapipe" ||
-                             format == "ultralytics" || format == "rtmpose";
-    require(has_folders,
+    require(format.empty() || format_of(format).in_folders,
             "{}: is a folder; a folder is read as OpenPose's, MediaPipe's, Ultralytics' or "
             "RTMPose's, a file a frame, not as {}",
             path.string(), format);
@@ -191,11 +142,11 @@ Detections import_points(const fs::path& path, const ImportOptions& options) {
     require(fs::is_regular_file(path), "{}: is not a file", path.string());
     require_text(kind_of(path), path.string());
     const std::string text = decoded_text(read_file(path), path.string());
-    if (format.empty()) format = sniff(text, path.string());
+    if (format.empty()) format = recognised(text, path.string());
     require(!format.empty(),
             "{}:1: not a format of points that is known; expected one of {} (see --format)",
             path.string(), fmt::join(import_formats(), ", "));
-    content = read_as(format, text, path.string(), options);
+    content = format_of(format).read(text, path.string(), options);
   }
   require(!options.rate_was_given || format == "kinovea",
           "--import-rate {}: files of {} say frames, not times: it has no effect, leave it out",

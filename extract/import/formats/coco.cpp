@@ -106,13 +106,28 @@ ImportedFile read_annotations(const JsonValue& root, const std::string& file,
   return content;
 }
 
-}  // namespace
-
 ImportedFile read_coco(std::string_view content, const std::string& file,
                        const ImportOptions& options) {
   const JsonFile json(content, file);
   const JsonValue root = json.root();
   return root.is_object() ? read_annotations(root, file, options) : read_results(root, file);
 }
+
+}  // namespace
+
+/// Results (a list), annotations (an object).
+const Format formats::coco{
+    [](const FileText& text) {
+      return if_so(text.is_list() || (text.is_object() && text.has("\"annotations\"")),
+                   Certainty::perhaps);
+    },
+    read_coco};
+/// Results of COCO with the person's number or box.
+const Format formats::alphapose{
+    [](const FileText& text) {
+      return if_so(text.is_list() && (text.has("\"idx\"") || text.has("\"box\"")),
+                   Certainty::likely);
+    },
+    read_coco};
 
 }  // namespace stride::imports

@@ -87,8 +87,6 @@ class CvatReader {
   std::vector<Mark> marks_;
 };
 
-}  // namespace
-
 ImportedFile read_cvat(std::string_view text, const std::string& file,
                        const ImportOptions& options) {
   const std::vector<Mark> marks = CvatReader(text, file).read();
@@ -111,5 +109,14 @@ ImportedFile read_cvat(std::string_view text, const std::string& file,
     content.people.push_back({key.second, key.first, map.parts(points)});
   return content;
 }
+
+}  // namespace
+
+/// CVAT for video 1.1: skeletons, tracks in tracks, or a track a point.
+const Format formats::cvat{[](const FileText& text) {
+                             return if_so(text.is_xml() && text.has("<annotations"),
+                                          Certainty::likely);
+                           },
+                           read_cvat};
 
 }  // namespace stride::imports

@@ -85,8 +85,6 @@ int frame_of(const TextLine& line, std::size_t first_column, const std::string& 
   return *number;
 }
 
-}  // namespace
-
 ImportedFile read_deeplabcut(std::string_view text, const std::string& file,
                              const ImportOptions& options) {
   const std::vector<TextLine> lines = read_text_table(text, file).lines;
@@ -110,5 +108,15 @@ ImportedFile read_deeplabcut(std::string_view text, const std::string& file,
   }
   return content;
 }
+
+}  // namespace
+
+/// Analysis or labels, one or several animals.
+const Format formats::deeplabcut{
+    [](const FileText& text) {
+      return if_so(text.first_cell() == "scorer" || text.first_cell() == "bodyparts",
+                   Certainty::likely);
+    },
+    read_deeplabcut};
 
 }  // namespace stride::imports

@@ -4,6 +4,7 @@
 #include "extract/io/error.h"
 
 namespace stride::imports {
+namespace {
 
 ImportedFile read_dltdv(std::string_view text, const std::string& file,
                         const ImportOptions& options) {
@@ -24,5 +25,12 @@ ImportedFile read_dltdv(std::string_view text, const std::string& file,
   }
   return content;
 }
+
+}  // namespace
+
+/// DLTdv and Argus xypts, first camera.
+const Format formats::dltdv{
+    [](const FileText& text) { return if_so(text.header_has("_cam1_X"), Certainty::likely); },
+    read_dltdv};
 
 }  // namespace stride::imports

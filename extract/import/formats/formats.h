@@ -1,43 +1,32 @@
 #pragma once
 
-#include <string>
-#include <string_view>
+#include "extract/import/parsing/format.h"
 
-#include "extract/import/parsing/detections.h"
+/// Every format by its name, in the order in which they are listed. A new one is a row here and a
+/// file in formats/ or networks/ that defines it: how it is told from the others, and its reader.
+// clang-format off
+#define STRIDE_IMPORT_FORMATS(row) \
+  row(openpose) \
+  row(deeplabcut) \
+  row(coco) \
+  row(alphapose) \
+  row(mmpose) \
+  row(sleap) \
+  row(trc) \
+  row(cvat) \
+  row(kinovea) \
+  row(dltdv) \
+  row(mediapipe) \
+  row(ultralytics) \
+  row(rtmpose) \
+  row(csv) \
+  row(json)
+// clang-format on
 
-/// One reader for each format, from the content of a file to all detected people. `file` is for
-/// error messages. All throw Error with file, line and what was expected.
-namespace stride::imports {
+namespace stride::imports::formats {
 
-/// One frame of OpenPose (15, 18 or 25 points).
-ImportedFile read_openpose(std::string_view content, const std::string& file, int frame);
-/// Analysis or labels, one or several animals.
-ImportedFile read_deeplabcut(std::string_view content, const std::string& file,
-                             const ImportOptions& options);
-/// Results of COCO and AlphaPose (a list), annotations of COCO (an object).
-ImportedFile read_coco(std::string_view content, const std::string& file,
-                       const ImportOptions& options);
-/// What MMPose's demo writes with --save-predictions.
-ImportedFile read_mmpose(std::string_view content, const std::string& file,
-                         const ImportOptions& options);
-/// Analysis CSV.
-ImportedFile read_sleap(std::string_view content, const std::string& file,
-                        const ImportOptions& options);
-/// Sports2D's pixels, OpenSim's form.
-ImportedFile read_trc(std::string_view content, const std::string& file,
-                      const ImportOptions& options);
-/// CVAT for video 1.1: skeletons, tracks in tracks, or a track a point.
-ImportedFile read_cvat(std::string_view content, const std::string& file,
-                       const ImportOptions& options);
-/// One table of all tracks.
-ImportedFile read_kinovea(std::string_view content, const std::string& file,
-                          const ImportOptions& options);
-/// DLTdv and Argus xypts, first camera.
-ImportedFile read_dltdv(std::string_view content, const std::string& file,
-                        const ImportOptions& options);
-/// What export_points() writes, and NAME.trajectory.csv.
-ImportedFile read_own_csv(std::string_view content, const std::string& file,
-                          const ImportOptions& options);
-ImportedFile read_own_json(std::string_view content, const std::string& file);
+#define STRIDE_DECLARE_FORMAT(name) extern const Format name;
+STRIDE_IMPORT_FORMATS(STRIDE_DECLARE_FORMAT)
+#undef STRIDE_DECLARE_FORMAT
 
-}  // namespace stride::imports
+}  // namespace stride::imports::formats

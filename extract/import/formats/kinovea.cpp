@@ -26,8 +26,6 @@ double frames_per_unit(const std::vector<double>& times, const ImportOptions& op
   return 1 / step;
 }
 
-}  // namespace
-
 ImportedFile read_kinovea(std::string_view text, const std::string& file,
                           const ImportOptions& options) {
   const std::vector<TextLine> lines = read_text_table(text, file).lines;
@@ -61,5 +59,12 @@ ImportedFile read_kinovea(std::string_view text, const std::string& file,
   }
   return content;
 }
+
+}  // namespace
+
+/// One table of all tracks.
+const Format formats::kinovea{
+    [](const FileText& text) { return if_so(text.first_cell() == "Time", Certainty::likely); },
+    read_kinovea};
 
 }  // namespace stride::imports

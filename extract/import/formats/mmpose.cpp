@@ -23,8 +23,6 @@ std::vector<std::string> labels_of(const JsonValue& root, const JsonValue& keypo
   return labels;
 }
 
-}  // namespace
-
 ImportedFile read_mmpose(std::string_view text, const std::string& file,
                          const ImportOptions& options) {
   const JsonFile json(text, file);
@@ -51,5 +49,14 @@ ImportedFile read_mmpose(std::string_view text, const std::string& file,
   }
   return content;
 }
+
+}  // namespace
+
+/// What MMPose's demo writes with --save-predictions.
+const Format formats::mmpose{[](const FileText& text) {
+                               return if_so(text.is_object() && text.has("\"instance_info\""),
+                                            Certainty::likely);
+                             },
+                             read_mmpose};
 
 }  // namespace stride::imports

@@ -1,12 +1,18 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "extract/import/formats/formats.h"
 #include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
+#include "extract/import/parsing/text.h"
 
 namespace stride::imports {
+namespace {
 
-ImportedFile read_openpose(std::string_view text, const std::string& file, int frame) {
+ImportedFile read_openpose(std::string_view text, const std::string& file,
+                           const ImportOptions& /*options*/) {
+  const int frame = last_number(std::filesystem::path(file).stem().string()).value_or(0);
   const JsonFile json(text, file);
   const JsonValue people = json.root()["people"];
   ImportedFile content;
@@ -35,5 +41,14 @@ ImportedFile read_openpose(std::string_view text, const std::string& file, int f
   }
   return content;
 }
+
+}  // namespace
+
+/// One frame (15, 18 or 25 points).
+const Format formats::openpose{[](const FileText& text) {
+                                 return if_so(text.is_object() && text.has("\"people\""),
+                                              Certainty::likely);
+                               },
+                               read_openpose, /*in_folders=*/true};
 
 }  // namespace stride::imports

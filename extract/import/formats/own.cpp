@@ -34,8 +34,6 @@ Declared declared_in(const TextTable& table) {
   return declared;
 }
 
-}  // namespace
-
 ImportedFile read_own_csv(std::string_view text, const std::string& file,
                           const ImportOptions& options) {
   const TextTable table = read_text_table(text, file);
@@ -59,7 +57,8 @@ ImportedFile read_own_csv(std::string_view text, const std::string& file,
   return content;
 }
 
-ImportedFile read_own_json(std::string_view text, const std::string& file) {
+ImportedFile read_own_json(std::string_view text, const std::string& file,
+                           const ImportOptions& /*options*/) {
   const JsonFile json(text, file);
   const JsonValue root = json.root(), frames = root["frames"];
   if (root["version"].integer() != 1) root["version"].fail("version 1");
@@ -87,5 +86,18 @@ ImportedFile read_own_json(std::string_view text, const std::string& file) {
   }
   return content;
 }
+
+}  // namespace
+
+/// What export_points() writes, and NAME.trajectory.csv.
+const Format formats::csv{
+    [](const FileText& text) { return if_so(text.first_cell() == "frame", Certainty::perhaps); },
+    read_own_csv};
+/// What export_points() writes.
+const Format formats::json{[](const FileText& text) {
+                             return if_so(text.is_object() && text.has("\"stride points\""),
+                                          Certainty::perhaps);
+                           },
+                           read_own_json};
 
 }  // namespace stride::imports

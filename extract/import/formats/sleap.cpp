@@ -6,6 +6,7 @@
 #include "extract/io/error.h"
 
 namespace stride::imports {
+namespace {
 
 ImportedFile read_sleap(std::string_view text, const std::string& file,
                         const ImportOptions& options) {
@@ -31,5 +32,14 @@ ImportedFile read_sleap(std::string_view text, const std::string& file,
   }
   return content;
 }
+
+}  // namespace
+
+/// Analysis CSV.
+const Format formats::sleap{
+    [](const FileText& text) {
+      return if_so(text.first_cell() == "track" && text.header_has("frame_idx"), Certainty::likely);
+    },
+    read_sleap};
 
 }  // namespace stride::imports

@@ -44,8 +44,6 @@ double announced_frames(const std::vector<TextLine>& lines) {
   return column < lines[2].cells.size() ? cell_number(lines[2].cells[column]).value_or(0) : 0;
 }
 
-}  // namespace
-
 ImportedFile read_trc(std::string_view text, const std::string& file,
                       const ImportOptions& options) {
   const std::vector<TextLine> lines = read_text_table(text, file, '\t').lines;
@@ -92,5 +90,14 @@ ImportedFile read_trc(std::string_view text, const std::string& file,
           lines[2].number, units);
   return content;
 }
+
+}  // namespace
+
+/// Sports2D's pixels, OpenSim's form.
+const Format formats::trc{[](const FileText& text) {
+                            return if_so(text.first_cell().starts_with("PathFileType"),
+                                         Certainty::likely);
+                          },
+                          read_trc};
 
 }  // namespace stride::imports

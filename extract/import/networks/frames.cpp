@@ -30,6 +30,10 @@ int said_number(const JsonValue& frame, int otherwise) {
 
 }  // namespace
 
+bool is_of_a_network(const FileText& text) {
+  return text.is_json() && !text.has("\"pose_keypoints_2d\"");
+}
+
 std::optional<JsonValue> first_of(const JsonValue& value,
                                   std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names)

@@ -6,11 +6,18 @@
 #include <vector>
 
 #include "extract/import/parsing/detections.h"
+#include "extract/import/parsing/format.h"
 #include "extract/import/parsing/json.h"
 
+/// What the readers of pose networks' results share. None of these libraries has a file format of
+/// its own, so the readers go by names and shapes. A network is never as sure as a person: its
+/// confidence counts 0.95 times.
 namespace stride::imports {
 
 inline constexpr double kSurestNetwork = 0.95;  // confidence: a person's click has 1
+
+/// Whether it may be JSON of a network: everything but OpenPose's, which has a format.
+bool is_of_a_network(const FileText& text);
 
 /// What a JSON file holds of one frame.
 struct FrameValue {

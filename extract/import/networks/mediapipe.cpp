@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "extract/import/formats/formats.h"
 #include "extract/import/networks/frames.h"
-#include "extract/import/networks/networks.h"
 #include "extract/import/parsing/columns.h"
 #include "extract/import/parsing/labels.h"
 #include "extract/io/error.h"
@@ -271,9 +271,9 @@ ImportedFile read_json(std::string_view text, const std::string& file) {
   return content;
 }
 
-}  // namespace
-
+/// Whether a table's header names MediaPipe's landmarks.
 bool is_mediapipe(const TextLine& header) {
+  if (header.cells.empty()) return false;
   const Layout layout = layout_of_table(header);
   const bool own = std::ranges::any_of(
       header.cells, [](const std::string& cell) { return cell.ends_with("_confidence"); });
@@ -290,5 +290,19 @@ ImportedFile read_mediapipe(std::string_view text, const std::string& file,
   tell_normalised(content);
   return content;
 }
+
+}  // namespace
+
+/// MediaPipe's 33 landmarks: a table with a row a frame or a row a landmark, or JSON with a list of
+/// landmarks a frame. Coordinates are shares of the picture, or pixels where they exceed 2.
+const Format formats::mediapipe{[](const FileText& text) {
+                                  if (!text.is_json())
+                                    return if_so(is_mediapipe(text.header()), Certainty::perhaps);
+                                  return if_so(
+                                      is_of_a_network(text) && !text.has("\"visible\"") &&
+                                          (text.has("\"visibility\"") || text.has("andmarks\"")),
+                                      Certainty::certain);
+                                },
+                                read_mediapipe, /*in_folders=*/true};
 
 }  // namespace stride::imports

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "extract/import/formats/formats.h"
 #include "extract/import/networks/frames.h"
-#include "extract/import/networks/networks.h"
 #include "extract/import/parsing/labels.h"
 
 namespace stride::imports {
@@ -70,8 +70,6 @@ void add_frame(int frame, const JsonValue& value, const std::string& file, Impor
              content);
 }
 
-}  // namespace
-
 ImportedFile read_rtmpose(std::string_view text, const std::string& file,
                           const ImportOptions& /*options*/) {
   const JsonFile json(text, file);
@@ -86,5 +84,18 @@ ImportedFile read_rtmpose(std::string_view text, const std::string& file,
   for (const auto& [frame, value] : frames_of(root)) add_frame(frame, value, file, content);
   return content;
 }
+
+}  // namespace
+
+/// RTMPose: predictions of MMPose's inferencer, and keypoints and scores as rtmlib returns them.
+const Format formats::rtmpose{
+    [](const FileText& text) {
+      const bool scored =
+          text.has("\"keypoints\"") && (text.has("\"scores\"") || text.has("\"keypoint_scores\""));
+      return if_so(is_of_a_network(text) && !text.has("\"instance_info\"") &&
+                       (scored || text.has("\"instances\"")),
+                   Certainty::certain);
+    },
+    read_rtmpose, /*in_folders=*/true};
 
 }  // namespace stride::imports

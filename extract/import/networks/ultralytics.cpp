@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "extract/import/formats/formats.h"
 #include "extract/import/networks/frames.h"
-#include "extract/import/networks/networks.h"
+#include "extract/import/networks/ultralytics.h"
 #include "extract/import/parsing/labels.h"
 #include "extract/import/parsing/text.h"
 #include "extract/io/error.h"
@@ -78,8 +79,6 @@ void add_file(const JsonValue& root, const std::string& file, ImportedFile& cont
   for (const auto& [frame, value] : frames_of(root)) add_people(value, frame, file, content);
 }
 
-}  // namespace
-
 ImportedFile read_ultralytics(std::string_view text, const std::string& file,
                               const ImportOptions& /*options*/) {
   ImportedFile content;
@@ -99,6 +98,16 @@ ImportedFile read_ultralytics(std::string_view text, const std::string& file,
   tell_normalised(content);
   return content;
 }
+
+}  // namespace
+
+/// Ultralytics' YOLO pose: what Results.to_json() gives, for each frame in a list, or a line a
+/// frame.
+const Format formats::ultralytics{[](const FileText& text) {
+                                    return if_so(is_of_a_network(text) && text.has("\"visible\""),
+                                                 Certainty::certain);
+                                  },
+                                  read_ultralytics, /*in_folders=*/true};
 
 ImportedFile read_ultralytics_labels(std::string_view text, const std::string& file, int frame) {
   ImportedFile content;
