@@ -82,4 +82,7 @@ void require_human(const Potential& potential, const std::string& origin);
 Potential load_potential(const std::filesystem::path& file);
 void save(const Potential& potential, const std::filesystem::path& file);
 
+/// What save() writes.
+std::string to_json_text(const Potential& potential);
+
 }  // namespace stride

@@ -215,8 +215,7 @@ Potential load_potential(const std::filesystem::path& path) {
   return potential;
 }
 
-void save(const Potential& potential, const std::filesystem::path& file) {
-  check(potential, file.string());
+std::string to_json_text(const Potential& potential) {
   Json keyframes = Json::array();
   for (const Keyframe& keyframe : potential.keyframes) {
     Json json{{"phase", keyframe.phase}};
@@ -242,7 +241,12 @@ void save(const Potential& potential, const std::filesystem::path& file) {
       {"weight", potential.weight},
       {"keyframes", keyframes}};
   if (potential.movement != kDefaultMovement) json["movement"] = potential.movement;
-  write_file_atomically(file, json_text(json));
+  return json_text(json);
+}
+
+void save(const Potential& potential, const std::filesystem::path& file) {
+  check(potential, file.string());
+  write_file_atomically(file, to_json_text(potential));
 }
 
 }  // namespace stride

@@ -33,15 +33,20 @@ std::string command_of(const ExperimentRequest& request) {
   return command;
 }
 
-/// Replaces the potential of the first shaped arm by `potential` in all arms that use it.
+/// Replaces the potential of the first shaped arm by `potential` in all arms that use it; curves
+/// that were made with the other are not theirs.
 void replace_potential(const std::filesystem::path& potential,
                        std::vector<experiments::ExperimentArm>& arms) {
   const auto shaped = std::ranges::find_if(
       arms, [](const experiments::ExperimentArm& arm) { return !arm.potential.empty(); });
   require(shaped != arms.end(), "--potential {}: no arm has one", potential.string());
   const std::filesystem::path replaced = shaped->potential;
-  for (experiments::ExperimentArm& arm : arms)
-    if (arm.potential == replaced) arm.potential = potential;
+  for (experiments::ExperimentArm& arm : arms) {
+    if (arm.potential != replaced) continue;
+    fmt::print(stderr, "{}: {} instead of {}\n", arm.name, potential.string(), replaced.string());
+    arm.potential = potential;
+    arm.curves.clear();
+  }
 }
 
 void experiment_as_requested(const ExperimentRequest& request);
@@ -72,13 +77,13 @@ void experiment_as_requested(const ExperimentRequest& request) {
   const std::filesystem::path file = experiments::experiment_file(request.name);
   options.experiment = experiments::load_experiment(file, settings);
   if (request.seeds) options.experiment.seeds = *request.seeds;
+  if (!request.potential.empty()) replace_potential(request.potential, options.experiment.arms);
   if (request.list) {
     for (const std::string& name : experiments::run_names(options.experiment))
       fmt::print("{}\n", name);
     return;
   }
   require(options.only.empty() || !options.merge, "--only and --merge: give one of them");
-  if (!request.potential.empty()) replace_potential(request.potential, options.experiment.arms);
   if (options.runs.empty())
     options.runs = std::filesystem::path("runs") / absolute(file).parent_path().filename();
   if (options.report.empty()) options.report = options.runs / "report";
@@ -103,7 +108,7 @@ void add_experiment_command(CLI::App& app) {
   command
       ->add_option("NAME", request->name,
                    "A folder of train/results, as baseline-vs-shaping or figures/mirrored; an "
-                   "experiment.toml; or figures/all: each of that folder")
+                   "experiment.toml or its folder; or figures/all: each of that folder")
       ->required();
   command->add_option("--potential", request->potential,
                       "Instead of the potential of the first shaped arm");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 
+#include "calibrate/runner/calibrated.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
 #include "extract/parallel/ranks.h"
@@ -71,15 +72,25 @@ void keep_finished(std::FILE* messages, std::vector<Job>& jobs) {
   require(!jobs.empty(), "no seed is finished in every arm: there is nothing to report yet");
 }
 
+/// Makes the run folder. One that is there must be of the same run.
 void begin(const Job& job) {
-  if (job.elsewhere || fs::exists(job.run / "config.toml")) return;
+  if (job.elsewhere) return;
   const fs::path& potential = job.arm->potential;
   training::TrainOptions options = job.arm->train;
   options.run.seed = job.seed;
   options.run.threads = 1;
   if (!potential.empty()) options.shaping.source = potential.filename().string();
-  training::make_run_folder(
-      options, training::load_demonstration(potential, {}, options.environment), job.run);
+  const training::Demonstration demonstration =
+      training::load_demonstration(potential, {}, options.environment);
+  const bool begun = fs::exists(job.run / "config.toml");
+  (begun ? training::require_same_run : training::make_run_folder)(options, demonstration, job.run);
+}
+
+/// What the runs read at their beginning and end is there and can be read.
+void require_files(const ExperimentFile& experiment) {
+  for (const ExperimentArm& arm : experiment.arms)
+    training::load_demonstration(arm.potential, {}, arm.train.environment);
+  if (!experiment.clip.empty()) load_calibrated(experiment.clip);
 }
 
 struct FileCloser {
@@ -147,6 +158,7 @@ void write_report(const std::vector<Job>& jobs, const ExperimentOptions& options
 }  // namespace
 
 std::vector<std::string> run_names(const ExperimentFile& experiment) {
+  require_files(experiment);
   ExperimentOptions options;
   options.experiment = experiment;
   std::vector<std::string> names;
@@ -183,11 +195,13 @@ std::string verdict_row(const fs::path& file) {
 
 bool run_experiment(const ExperimentOptions& options, const std::atomic<bool>& stop,
                     std::FILE* messages) {
+  require_files(options.experiment);
   parallel::Ranks& ranks = parallel::Ranks::world();
   std::vector<Job> all = jobs_of(options);
   if (options.merge) {
     if (!ranks.first()) return true;
     keep_finished(messages, all);
+    for (const Job& job : all) begin(job);
     write_report(all, options);
     return true;
   }

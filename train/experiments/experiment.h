@@ -27,7 +27,8 @@ inline constexpr const char* kVerdictHeading =
     "| experiment | claim | arms | seeds | ratio (95 %) | bootstrap | verdict |\n"
     "|---|---|---|---|---|---|---|\n";
 
-/// All runs of the experiment, as "ARM/SEED", in the order in which they are done.
+/// All runs of the experiment, as "ARM/SEED", in the order in which they are done. Throws Error for
+/// a potential or clip that is missing or that its arm cannot use.
 std::vector<std::string> run_names(const ExperimentFile& experiment);
 
 /// Runs what is not done yet, continuing runs that were interrupted; then writes the report:

@@ -42,8 +42,7 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
   constexpr std::array<std::string_view, 12> kKeys{
       "title",  "preset", "decisions", "seeds", "first_seed", "claim",
       "better", "than",   "at",        "clip",  "level",      "level_label"};
-  std::map<std::string, std::string> texts{{"seeds", std::to_string(experiment.seeds)},
-                                           {"first_seed", std::to_string(experiment.first_seed)}};
+  std::map<std::string, std::string> texts;
   for (const TomlSetting& setting : settings) {
     const std::string key = setting.key();
     require(std::ranges::count(kKeys, key) > 0, "{}: {}: unknown key; before the arms there are {}",
@@ -55,21 +54,17 @@ void read_heading(const std::vector<TomlSetting>& settings, const fs::path& file
     require(texts.contains(key), "{}: {} is missing", file.string(), key);
   experiment.title = texts["title"];
   experiment.preset = texts["preset"];
-  // Integers are read and checked like the settings of a run.
-  const auto read_as = [&](const char* setting, const char* key) {
-    training::TrainOptions options;
-    training::set_options({{{"run"}, setting, {texts[key]}}}, file.string(), options);
-    return options.run;
+  const auto read_integer = [&](const char* key, std::int64_t most, auto& value) {
+    if (!texts.contains(key)) return;
+    const std::optional<double> number = cell_number(texts[key]);
+    require(number && *number == std::floor(*number) && *number >= 1 &&
+                *number <= static_cast<double>(most),
+            "{}: {} = {}: must be a whole number in [1, {}]", file.string(), key, texts[key], most);
+    value = static_cast<std::remove_reference_t<decltype(value)>>(*number);
   };
-  const auto seed = [&](const char* key) {
-    const auto value = read_as("seed", key).seed;
-    require(value >= 1 && value <= 1000, "{}: {} = {}: must be in [1, 1000]", file.string(), key,
-            texts[key]);
-    return static_cast<int>(value);
-  };
-  experiment.seeds = seed("seeds");
-  experiment.first_seed = seed("first_seed");
-  experiment.decisions = read_as("decisions", "decisions").decisions;
+  read_integer("seeds", 1000, experiment.seeds);
+  read_integer("first_seed", 1000, experiment.first_seed);
+  read_integer("decisions", 1'000'000'000'000, experiment.decisions);
   if (!texts["clip"].empty())
     experiment.clip = (file.parent_path() / texts["clip"]).lexically_normal();
   experiment.claim = {.text = texts["claim"], .better = texts["better"], .than = texts["than"]};
@@ -111,6 +106,11 @@ std::map<std::string, fs::path> experiments_in(const fs::path& folder, const std
   return files;
 }
 
+bool uses_potential(const training::TrainOptions& options) {
+  return options.shaping.scale != 0 || options.shaping.stride_share > 0 ||
+         options.environment.reference_share > 0 || options.environment.imitation.reward_per_s > 0;
+}
+
 ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
                      const fs::path& file, const training::TrainOptions& common) {
   ExperimentArm arm{name, {}, {}, common};
@@ -123,8 +123,17 @@ ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
           (file.parent_path() / setting.words.front()).lexically_normal();
     return true;
   });
-  training::set_options(settings, fmt::format("{}: [{}]", file.string(), name), arm.train);
-  arm.train.check();
+  const std::string source = fmt::format("{}: [{}]", file.string(), name);
+  training::set_options(settings, source, arm.train);
+  try {
+    arm.train.check();
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", source, error.what()));
+  }
+  require(arm.potential.empty() || uses_potential(arm.train),
+          "{}: potential: nothing of this arm uses it: shaping.scale = 0, and no episode starts on "
+          "its run; set shaping.scale, shaping.stride_share or environment.reference_share",
+          source);
   return arm;
 }
 
@@ -132,6 +141,8 @@ ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
 
 fs::path experiment_file(const std::string& name) {
   if (name.ends_with(".toml")) return name;
+  const fs::path in_folder = (fs::path(name) / "experiment.toml").lexically_normal();
+  if (fs::exists(in_folder)) return in_folder;
   const fs::path folder = data_file("train/results");
   std::map<std::string, fs::path> files = experiments_in(folder, "");
   files.merge(experiments_in(folder, fs::path(name).parent_path().string()));
@@ -164,6 +175,8 @@ ExperimentFile load_experiment(const fs::path& file, const std::vector<std::stri
   experiment.decisions = common.run.decisions;
   for (auto section = std::next(sections.begin()); section != sections.end(); ++section)
     experiment.arms.push_back(arm_of(section->first, std::move(section->second), file, common));
+  if (!settings.empty())
+    for (ExperimentArm& arm : experiment.arms) arm.curves.clear();
   complete_claim(file, experiment);
   return experiment;
 }

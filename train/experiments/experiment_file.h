@@ -45,7 +45,8 @@ struct ExperimentClaim {
 ///     [nearest]
 ///     potential = "../human.potential.json"   # from this file's folder
 ///     shaping.index = "nearest"               # any setting of config.toml
-///     curves = "../ways/human-nearest"        # instead of training seeds that are there
+///     curves = "../ways/human-nearest"        # instead of training seeds that are there, unless
+///                                             # the command line sets something else
 struct ExperimentFile {
   std::string title, preset;
   std::int64_t decisions = 0;
@@ -70,8 +71,8 @@ struct ExperimentFile {
   }
 };
 
-/// NAME, as baseline-vs-shaping or figures/mirrored, or the path of an experiment.toml. Throws
-/// Error with the list of experiments.
+/// NAME, as baseline-vs-shaping or figures/mirrored, or the path of an experiment.toml or its
+/// folder. Throws Error with the list of experiments.
 std::filesystem::path experiment_file(const std::string& name);
 
 /// The files of all experiments of a group: of "figures/all" those in train/results/figures. Empty

@@ -76,10 +76,14 @@ Demonstration load_demonstration(const fs::path& potential, const fs::path& refe
   return demonstration;
 }
 
-void save(const Demonstration& demonstration, const fs::path& run, TrainOptions& options) {
+void name_copies(const Demonstration& demonstration, TrainOptions& options) {
   options.shaping.potential = demonstration.potential ? "potential.json" : "";
   options.environment.reference = demonstration.reference ? "reference.calibrated.csv" : "";
   if (!demonstration.reference) options.environment.reference_share = 0;
+}
+
+void save(const Demonstration& demonstration, const fs::path& run, TrainOptions& options) {
+  name_copies(demonstration, options);
   if (demonstration.potential) save(*demonstration.potential, run / options.shaping.potential);
   if (demonstration.reference) save(*demonstration.reference, run / options.environment.reference);
 }

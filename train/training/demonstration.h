@@ -25,8 +25,9 @@ Demonstration load_demonstration(const std::filesystem::path& potential,
                                  const std::filesystem::path& reference,
                                  const EnvironmentOptions& options);
 
-/// The copies in a run folder, named by its configuration. save() sets these names in `options`;
-/// loading applies the overrides of the potential.
+/// The copies in a run folder, named by its configuration. name_copies(), which save() calls, sets
+/// these names in `options`; loading applies the overrides of the potential.
+void name_copies(const Demonstration& demonstration, TrainOptions& options);
 void save(const Demonstration& demonstration, const std::filesystem::path& run,
           TrainOptions& options);
 Demonstration load_run_demonstration(const TrainOptions& options, const std::filesystem::path& run);

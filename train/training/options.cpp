@@ -407,6 +407,16 @@ std::string to_toml(const TrainOptions& options, std::string_view heading) {
   return text;
 }
 
+std::string first_difference(const TrainOptions& options, const TrainOptions& other) {
+  TrainOptions copy = options, copy_of_other = other;
+  const std::vector<Field> theirs = fields(copy_of_other);
+  for (std::size_t i = 0; const Field& field : fields(copy)) {
+    const std::string value = to_text(field.value), their_value = to_text(theirs[i++].value);
+    if (value != their_value) return fmt::format("{} = {}, not {}", field.key, value, their_value);
+  }
+  return "";
+}
+
 namespace {
 
 /// `what` names the preset in an error.

@@ -126,6 +126,9 @@ void set_option(std::string_view assignment, TrainOptions& options);
 /// All options as TOML with comments; reads back as the same options.
 std::string to_toml(const TrainOptions& options, std::string_view heading);
 
+/// The first option in which `other` differs, as "agent.gamma = 0.99, not 0.9"; empty if none does.
+std::string first_difference(const TrainOptions& options, const TrainOptions& other);
+
 /// Sets the options of train/presets/NAME.toml. Where it says `base = "OTHER"`, those of the preset
 /// OTHER come first. Throws Error with the list of presets for an unknown name or base, and with
 /// the chain of bases that leads back to itself.

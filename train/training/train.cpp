@@ -221,6 +221,21 @@ void make_run_folder(const TrainOptions& options, const Demonstration& demonstra
   write_run_options(written, run);
 }
 
+void require_same_run(const TrainOptions& options, const Demonstration& demonstration,
+                      const fs::path& run) {
+  constexpr std::string_view kCure = "remove that folder, or choose another for the runs";
+  TrainOptions wanted = options;
+  name_copies(demonstration, wanted);
+  const TrainOptions held = load_run_options(run);
+  const std::string difference = first_difference(held, wanted);
+  require(difference.empty(), "{}: holds a run with {}: {}", run.string(), difference, kCure);
+  if (!demonstration.potential) return;
+  const fs::path copy = run / held.shaping.potential;
+  require(to_json_text(load_potential(copy)) == to_json_text(*demonstration.potential),
+          "{}: is another potential than the {} that is to shape this run: {}", copy.string(),
+          held.shaping.source, kCure);
+}
+
 void write_run_options(const TrainOptions& options, const fs::path& run) {
   const std::string heading = fmt::format(
       "# stride config 1, written by stride {}\n"

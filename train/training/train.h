@@ -26,6 +26,10 @@ struct TrainSummary {
 void make_run_folder(const TrainOptions& options, const Demonstration& demonstration,
                      const std::filesystem::path& run);
 
+/// Throws Error if `run` holds a run of other options, naming the first, or of another potential.
+void require_same_run(const TrainOptions& options, const Demonstration& demonstration,
+                      const std::filesystem::path& run);
+
 /// Replaces RUN/config.toml.
 void write_run_options(const TrainOptions& options, const std::filesystem::path& run);
 

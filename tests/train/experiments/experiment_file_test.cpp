@@ -59,7 +59,7 @@ TEST(ExperimentFile, SeedsBeginWithTheFirst) {
   EXPECT_EQ(fresh.seeds, 2);
   EXPECT_EQ(fresh.first_seed, 101);
   EXPECT_ERROR(load(folder, std::string(kHeading) + "first_seed = 0\n" + arm),
-               "first_seed = 0: must be in [1, 1000]");
+               "first_seed = 0: must be a whole number in [1, 1000]");
 }
 
 TEST(ExperimentFile, SettingsOfTheCommandLineYieldToThoseOfAnArm) {
@@ -70,6 +70,19 @@ TEST(ExperimentFile, SettingsOfTheCommandLineYieldToThoseOfAnArm) {
   EXPECT_EQ(experiment.arms[0].train.agent.gamma, 0.9);
   EXPECT_EQ(experiment.arms[1].train.agent.gamma, 0.95);
   EXPECT_EQ(experiment.decisions, 100);
+}
+
+TEST(ExperimentFile, CurvesOfAnotherExperimentAreNotThoseOfOtherSettings) {
+  const TemporaryFolder folder;
+  const std::string text = std::string(kHeading) + "[a]\ncurves = \"../z\"\n";
+  EXPECT_FALSE(load(folder, text).arms[0].curves.empty());
+  EXPECT_TRUE(load(folder, text, {"run.decisions=100"}).arms[0].curves.empty());
+}
+
+TEST(ExperimentFile, IsFoundInItsFolder) {
+  const TemporaryFolder folder;
+  load(folder, std::string(kHeading) + "[a]\npotential = \"\"\n");
+  EXPECT_EQ(experiments::experiment_file((folder / ".").string()), folder / "experiment.toml");
 }
 
 TEST(ExperimentFile, ClaimsThatOneArmComesFartherThanAnother) {
@@ -102,8 +115,14 @@ TEST(ExperimentFile, ErrorsNameFileKeyAndCure) {
   EXPECT_ERROR(load(folder, std::string(kHeading) + arm + "agent.gama = 0.9\n"),
                "experiment.toml: [a]: agent.gama: unknown key; did you mean agent.gamma?");
   EXPECT_ERROR(load(folder, std::string(kHeading) + arm + "agent.gamma = 2\n"),
-               "agent.gamma = 2: must be in [0, 1)");
-  EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = 0\n" + arm), "seeds");
+               "experiment.toml: [a]: agent.gamma = 2: must be in [0, 1)");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = 0\n" + arm),
+               "experiment.toml: seeds = 0: must be a whole number in [1, 1000]");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "seeds = 2.5\n" + arm),
+               "experiment.toml: seeds = 2.5: must be a whole number");
+  EXPECT_ERROR(load(folder, std::string(kHeading) + "[a]\npotential = \"p\"\n" +
+                                "shaping.scale = 0\nenvironment.reference_share = 0\n"),
+               "[a]: potential: nothing of this arm uses it");
   EXPECT_ERROR(experiments::experiment_file("baseline-vs-nothing"),
                "must be one of baseline-vs-shaping");
 }
