@@ -87,6 +87,11 @@ struct Pose {
   }
 };
 
+/// Angles of the right and the left leg, rad: how far the line from the pelvis to the knee is
+/// turned forward from straight down, and how far the knee is flexed.
+inline constexpr std::size_t kLegAngles = 4;
+std::array<double, kLegAngles> leg_angles(const Pose& pose);
+
 /// A pose and how fast its parts move, m/s.
 struct MovingPose {
   Pose pose, velocity;

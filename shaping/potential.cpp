@@ -39,6 +39,37 @@ double variance(std::span<const MovingPose> keyframes, const Pose MovingPose::*w
   return total;
 }
 
+/// An angle less another, the shorter way round.
+double turn(double angle, double from) {
+  return std::remainder(angle - from, 2 * std::numbers::pi);
+}
+
+/// Mean square distance of a leg's angle from its mean over the keyframes, rad².
+double variance(std::span<const MovingPose> keyframes, std::size_t angle) {
+  const auto n = static_cast<double>(keyframes.size());
+  const double first = leg_angles(keyframes.front().pose)[angle];
+  double mean = 0, squares = 0;  // of the turn from the first
+  for (const MovingPose& each : keyframes) mean += turn(leg_angles(each.pose)[angle], first) / n;
+  for (const MovingPose& each : keyframes)
+    squares += std::pow(turn(leg_angles(each.pose)[angle], first) - mean, 2);
+  return squares / n;
+}
+
+/// Σ over the angles of the legs.
+double closeness_of_angles(const Potential& potential, std::span<const MovingPose> keyframes,
+                           const Pose& pose, const Pose& target) {
+  const std::array<double, kLegAngles> angles = leg_angles(pose), wanted = leg_angles(target);
+  double sum = 0;
+  for (std::size_t i = 0; i < kLegAngles; ++i) {
+    const double s2 = potential.function == InverseDistance::pf4
+                          ? std::pow(potential.angle_m, 2) * variance(keyframes, i)
+                          : 0;
+    const Eigen::Matrix<double, 1, 1> d(potential.angle_m * turn(angles[i], wanted[i]));
+    sum += inverse_distance(potential.function, d, potential.epsilon_m, s2);
+  }
+  return sum;
+}
+
 /// Σ over pelvis, two knees, two feet. The pelvis is the origin of the others, so it is compared by
 /// its height.
 double closeness(const Potential& potential, std::span<const MovingPose> keyframes,
@@ -59,6 +90,8 @@ double closeness(const Potential& potential, std::span<const MovingPose> keyfram
     d << place, velocity_s * displacement(target.velocity, motion.velocity, each.part);
     sum += inverse_distance(potential.function, d, potential.epsilon_m, s2);
   }
+  if (potential.angle_m > 0)
+    sum += closeness_of_angles(potential, keyframes, motion.pose, target.pose);
   return potential.weight * sum;
 }
 

@@ -40,6 +40,7 @@ struct Potential {
   PotentialIndex index = PotentialIndex::time;
   double epsilon_m = 0.05;
   double velocity_s = 0;  // > 0: velocities are compared as well, 1 m/s as so many metres
+  double angle_m = 0;     // > 0: the angles of the legs as well, 1 rad as so many metres
   double weight = 1;
 
   /// Φ(s, phase), ≥ 0 or of pf4 ≤ 0: weight · the sum over pelvis height, two knees, two feet.

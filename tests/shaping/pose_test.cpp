@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 namespace stride {
@@ -34,6 +35,21 @@ TEST(Pose, ComparesThePelvisByItsHeightOnly) {
   EXPECT_EQ(displacement(kPose, other, PosePart::pelvis), Eigen::Vector2d(0, other.m[0] - 0.9));
   EXPECT_NEAR(displacement(kPose, other, PosePart::foot_r).x(), 0.5, 1e-15);
   EXPECT_EQ(displacement(kPose, other, PosePart::knee_l).norm(), 0);
+}
+
+TEST(Pose, AnglesOfALegThatIsBentForwardAtTheHipAndBackAtTheKnee) {
+  Pose pose;
+  pose[PosePart::knee_r] = Eigen::Vector2d(0.5 * std::sin(0.6), -0.5 * std::cos(0.6));
+  pose[PosePart::foot_r] =
+      pose[PosePart::knee_r] + Eigen::Vector2d(0.4 * std::sin(-0.3), -0.4 * std::cos(-0.3));
+  pose[PosePart::knee_l] = Eigen::Vector2d(0, -0.5);
+  pose[PosePart::foot_l] = Eigen::Vector2d(0, -0.9);
+  const auto angles = leg_angles(pose);
+  EXPECT_NEAR(angles[0], 0.6, 1e-12);
+  EXPECT_NEAR(angles[1], 0.9, 1e-12);
+  EXPECT_EQ(angles[2], 0);
+  EXPECT_EQ(angles[3], 0);
+  EXPECT_EQ(leg_angles(pose.mirrored())[3], angles[1]);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -86,6 +87,34 @@ TEST(Potential, AVelocityCountsAsADistance) {
     EXPECT_NEAR(potential(mirrored, 0.75), potential(motion, 0.25), 1e-6) << name;
   }
   EXPECT_ERROR(potential(motion.pose, 0.25), "velocities are compared");
+}
+
+/// A leg that is turned as a whole about the pelvis has another thigh and the same knee.
+TEST(Potential, AnAngleCountsAsADistance) {
+  Potential potential = hamner();
+  potential.function = InverseDistance::pf3;
+  potential.epsilon_m = 0.1;
+  potential.weight = 2;
+  potential.index = PotentialIndex::time;
+  Pose pose = potential.target(0.25);
+  const Pose target = pose;
+  const double turn = 0.3;
+  const Eigen::Rotation2Dd rotation(turn);
+  for (const PosePart part : {PosePart::knee_l, PosePart::foot_l})
+    pose[part] = (rotation * Eigen::Vector2d(pose[part])).eval();
+  const double without = potential(pose, 0.25);
+  potential.angle_m = 0.4;
+  EXPECT_NEAR(potential(target, 0.25), 2 * 9 / 0.01, 1e-9);
+  const double angles = 3 / 0.01 + 1 / (std::pow(0.4 * turn, 2) + 0.01);
+  EXPECT_NEAR(potential(pose, 0.25) - without, 2 * angles, 1e-9);
+  for (const auto& [function, name] : kInverseDistances)
+    for (const auto& [index, index_name] : kPotentialIndices) {
+      potential.function = function;
+      potential.index = index;
+      EXPECT_NEAR(potential(pose.mirrored(), 0.75), potential(pose, 0.25), 1e-6)
+          << name << index_name;
+      EXPECT_LT(potential(pose, 0.25), potential(target, 0.25));
+    }
 }
 
 TEST(Potential, TheTargetsVelocityIsThatOfTheTarget) {

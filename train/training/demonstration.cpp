@@ -98,6 +98,7 @@ Demonstration load_run_demonstration(const TrainOptions& options, const fs::path
   potential.weight *= shaping.scale;
   if (shaping.epsilon_m >= 0) potential.epsilon_m = shaping.epsilon_m;
   potential.velocity_s = shaping.velocity_s;
+  potential.angle_m = shaping.angle_m;
   if (!shaping.function.empty()) potential.function = inverse_distance(shaping.function);
   if (!shaping.index.empty()) potential.index = potential_index(shaping.index);
   if (shaping.stride_share > 0) weigh_by_strides(options, potential);

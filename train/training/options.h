@@ -66,6 +66,7 @@ struct ShapingOptions {
   bool discounted = true;  // F = γ Φ′ − Φ; false: Φ′ − Φ, which keeps no theorem (Jeon et al.)
   double epsilon_m = 0.1;  // instead of the file's; -1: the file's
   double velocity_s = 0;   // > 0: velocities are compared as well, 1 m/s as so many metres
+  double angle_m = 0;      // > 0: the angles of the legs as well, 1 rad as so many metres
   std::string function;    // pf1 … pf4; empty: the file's
   std::string index;       // time, nearest; empty: the file's
 };
