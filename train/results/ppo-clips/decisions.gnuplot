@@ -16,9 +16,11 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.1 noborder notitle, \
   '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'game (5 seeds)' noenhanced, \
   './decisions.csv' index 3 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#edae49' fs transparent solid 0.1 noborder notitle, \
-  '' index 3 using 1:2 with lines lw 2 lc rgb '#edae49' title 'weak (5 seeds)' noenhanced, \
+  '' index 3 using 1:2 with lines lw 2 lc rgb '#edae49' title 'walk (5 seeds)' noenhanced, \
   './decisions.csv' index 4 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#5d3a9b' fs transparent solid 0.1 noborder notitle, \
-  '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'human (5 seeds)' noenhanced
+  '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'weak (5 seeds)' noenhanced, \
+  './decisions.csv' index 5 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#555555' fs transparent solid 0.1 noborder notitle, \
+  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'human (5 seeds)' noenhanced
 unset output
 set terminal pngcairo size 1440,840 font 'sans,20'
 set output './decisions.png'
@@ -29,7 +31,9 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 2 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#66a182' fs transparent solid 0.1 noborder notitle, \
   '' index 2 using 1:2 with lines lw 2 lc rgb '#66a182' title 'game (5 seeds)' noenhanced, \
   './decisions.csv' index 3 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#edae49' fs transparent solid 0.1 noborder notitle, \
-  '' index 3 using 1:2 with lines lw 2 lc rgb '#edae49' title 'weak (5 seeds)' noenhanced, \
+  '' index 3 using 1:2 with lines lw 2 lc rgb '#edae49' title 'walk (5 seeds)' noenhanced, \
   './decisions.csv' index 4 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#5d3a9b' fs transparent solid 0.1 noborder notitle, \
-  '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'human (5 seeds)' noenhanced
+  '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'weak (5 seeds)' noenhanced, \
+  './decisions.csv' index 5 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#555555' fs transparent solid 0.1 noborder notitle, \
+  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'human (5 seeds)' noenhanced
 unset output

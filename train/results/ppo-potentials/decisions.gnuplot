@@ -20,7 +20,9 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 4 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#5d3a9b' fs transparent solid 0.1 noborder notitle, \
   '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'pf4 (5 seeds)' noenhanced, \
   './decisions.csv' index 5 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#555555' fs transparent solid 0.1 noborder notitle, \
-  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'pf3-places (5 seeds)' noenhanced
+  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'pf3-places (5 seeds)' noenhanced, \
+  './decisions.csv' index 6 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#00b4d8' fs transparent solid 0.1 noborder notitle, \
+  '' index 6 using 1:2 with lines lw 2 lc rgb '#00b4d8' title 'pf3-angles (5 seeds)' noenhanced
 unset output
 set terminal pngcairo size 1440,840 font 'sans,20'
 set output './decisions.png'
@@ -35,5 +37,7 @@ plot './decisions.csv' index 0 using 1:($2-$3):($2+$3) with filledcurves fc rgb 
   './decisions.csv' index 4 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#5d3a9b' fs transparent solid 0.1 noborder notitle, \
   '' index 4 using 1:2 with lines lw 2 lc rgb '#5d3a9b' title 'pf4 (5 seeds)' noenhanced, \
   './decisions.csv' index 5 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#555555' fs transparent solid 0.1 noborder notitle, \
-  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'pf3-places (5 seeds)' noenhanced
+  '' index 5 using 1:2 with lines lw 2 lc rgb '#555555' title 'pf3-places (5 seeds)' noenhanced, \
+  './decisions.csv' index 6 using 1:($2-$3):($2+$3) with filledcurves fc rgb '#00b4d8' fs transparent solid 0.1 noborder notitle, \
+  '' index 6 using 1:2 with lines lw 2 lc rgb '#00b4d8' title 'pf3-angles (5 seeds)' noenhanced
 unset output
