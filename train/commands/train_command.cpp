@@ -134,8 +134,9 @@ void add_train_command(CLI::App& app) {
   command->add_option("--seed", request->seed, "Of every random number");
   command->add_option("--decisions", request->decisions, "The run ends after so many");
   command
-      ->add_option("--preset", request->preset,
-                   "Settings in train/presets: stride, demo, ppo, competition, ddpg, shaping, paper")
+      ->add_option(
+          "--preset", request->preset,
+          "Settings in train/presets: stride, demo, ppo, competition, ddpg, shaping, paper")
       ->default_val("stride");
   command->add_option("--config", request->config, "TOML file of settings, over the preset");
   command->add_option("--set", request->assignments, "One setting, as agent.gamma=0.99");
