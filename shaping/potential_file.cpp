@@ -1,10 +1,10 @@
 // NAME.potential.json: reading, writing and the rules of its values.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 #include "extract/io/outputs.h"
 #include "extract/skeleton/movement.h"
 #include "shaping/potential.h"
@@ -16,32 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "stride-potential";
 constexpr int kVersion = 1;
-
-/// A JSON object with its path in the file, for errors.
-struct Node {
-  const Json& json;
-  std::string file, path;
-
-  Node operator[](const std::string& key) const {
-    const std::string full = path.empty() ? key : path + "." + key;
-    require(json.is_object() && json.contains(key), "{}: {} is missing", file, full);
-    return {json.at(key), file, full};
-  }
-  Node operator[](std::size_t i) const {
-    return {json.at(i), file, fmt::format("{}[{}]", path, i)};
-  }
-  double number() const {
-    require(json.is_number(), "{}: {} = {}: must be a number", file, path, json.dump());
-    return json.get<double>();
-  }
-  double number_or_unknown() const {  // null is written for what is not known
-    return json.is_null() ? std::nan("") : number();
-  }
-  std::string text() const {
-    require(json.is_string(), "{}: {} = {}: must be text", file, path, json.dump());
-    return json.get<std::string>();
-  }
-};
 
 Json to_json(const Pose& pose) {
   Json json;
@@ -55,26 +29,25 @@ Json to_json(const Pose& pose) {
   return json;
 }
 
-Pose pose_from(const Node& node, double (Node::*number)() const) {
+Pose pose_from(const JsonNode& node, double (JsonNode::*number)() const) {
   Pose pose;
   for (const ComparedPart& each : kPoseParts) {
-    const Node part = node[std::string(each.key)];
+    const JsonNode part = node[std::string(each.key)];
     const std::span<double> numbers = pose.numbers(each.part);
     if (numbers.size() == 1) {
       numbers[0] = (part.*number)();
       continue;
     }
-    require(part.json.is_array() && part.json.size() == numbers.size(),
-            "{}: {} = {}: must be [x, y]", part.file, part.path, part.json.dump());
+    if (!part.json.is_array() || part.json.size() != numbers.size()) part.fail("[x, y]");
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = (part[i].*number)();
   }
   return pose;
 }
 
 template <typename Choice>
-Choice choice(const Node& node, const Names<Choice>& names) {
+Choice choice(const JsonNode& node, const Names<Choice>& names) {
   const auto found = names.find(node.text());
-  require(found.has_value(), "{}: {} = '{}': must be one of {}", node.file, node.path, node.text(),
+  require(found.has_value(), "{}: {} = '{}': must be one of {}", node.where, node.path, node.text(),
           names.list());
   return *found;
 }
@@ -83,18 +56,18 @@ bool is_finite(const Pose& pose) {
   return std::ranges::all_of(pose.m, [](double each) { return std::isfinite(each); });
 }
 
-void require_format(const Node& root) {
+void require_format(const JsonNode& root) {
   require(root.json.is_object() && root.json.contains("format"),
           "{}: is not a potential: the key format = \"{}\" is missing; make one with `stride "
           "convert`",
-          root.file, kFormat);
+          root.where, kFormat);
   const std::string format = root["format"].text();
-  require(format == kFormat, "{}: format = '{}': must be '{}'", root.file, format, kFormat);
+  require(format == kFormat, "{}: format = '{}': must be '{}'", root.where, format, kFormat);
   const double version = root["version"].number();
   require(version == kVersion,
           "{}: version = {}: this program reads version {}; make the file anew with `stride "
           "convert`",
-          root.file, version, kVersion);
+          root.where, version, kVersion);
 }
 
 }  // namespace
@@ -184,7 +157,7 @@ Potential load_potential(const std::filesystem::path& path) {
           "{}: is a table, a potential is needed; make one with `stride convert {} -o DIR`", file,
           file);
   const Json json = parse_json(content, file, "a potential; make one with `stride convert`");
-  const Node root{json, file, ""};
+  const JsonNode root{json, file, ""};
   require_format(root);
   Potential potential;
   potential.source = root["source"]["file"].text();
@@ -203,13 +176,13 @@ Potential load_potential(const std::filesystem::path& path) {
   potential.index = choice(root["index"], kPotentialIndices);
   potential.epsilon_m = root["epsilon_m"].number();
   potential.weight = root["weight"].number();
-  const Node keyframes = root["keyframes"];
+  const JsonNode keyframes = root["keyframes"];
   require(keyframes.json.is_array(), "{}: keyframes must be a list", file);
   for (std::size_t k = 0; k < keyframes.json.size(); ++k) {
-    const Node node = keyframes[k];
+    const JsonNode node = keyframes[k];
     potential.keyframes.push_back({.phase = node["phase"].number(),
-                                   .pose = pose_from(node, &Node::number),
-                                   .sd = pose_from(node["sd"], &Node::number_or_unknown)});
+                                   .pose = pose_from(node, &JsonNode::number),
+                                   .sd = pose_from(node["sd"], &JsonNode::number_or_unknown)});
   }
   check(potential, file);
   return potential;

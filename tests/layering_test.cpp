@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 /// The rooms in the order of the pipeline. A room includes from itself and from rooms above it in
 /// this list. `commands` are the files of the command line, which know everything in their folder.
 const std::vector<std::string> kRooms{
-    "extract/io", "extract/parallel", "extract/skeleton", "extract/video", "extract/import/parsing",
-    "extract/import/formats", "extract/import/networks", "extract/import", "extract/pose/tflite",
-    "extract/pose", "extract/tracking/gaussian_process", "extract/tracking", "extract/annotation",
-    "extract/annotation/session", "extract/commands",
+    "extract/io", "extract/io/json", "extract/parallel", "extract/skeleton", "extract/video",
+    "extract/import/parsing", "extract/import/formats", "extract/import/networks", "extract/import",
+    "extract/pose/tflite", "extract/pose", "extract/tracking/gaussian_process", "extract/tracking",
+    "extract/annotation", "extract/annotation/session", "extract/commands",
     //
     "calibrate/osim", "calibrate/runner", "calibrate/fit/solver", "calibrate/fit", "calibrate/gait",
     "calibrate/aperiodic", "calibrate", "calibrate/report", "calibrate/commands",

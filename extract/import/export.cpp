@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 #include "extract/io/table.h"
 
 namespace stride::imports {

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "extract/io/csv.h"
@@ -142,23 +141,6 @@ std::string base64_of(std::string_view content) {
                   static_cast<int>(content.size()));
   text.pop_back();
   return text;
-}
-
-std::string json_text(const nlohmann::ordered_json& json) {
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-nlohmann::ordered_json parse_json(std::string_view content, const fs::path& file,
-                                  std::string_view expected) {
-  using Json = nlohmann::ordered_json;
-  try {
-    return Json::parse(content);
-  } catch (const Json::parse_error& error) {
-    throw Error(fmt::format("{}: not valid JSON at {}: expected {}", file.string(),
-                            place_of_byte(content, error.byte > 0 ? error.byte - 1 : 0), expected));
-  } catch (const Json::exception&) {
-    throw Error(fmt::format("{}: not valid JSON: a number is too large", file.string()));
-  }
 }
 
 }  // namespace stride

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -20,13 +19,5 @@ std::string sha256_of_file(const std::filesystem::path& file);
 std::string sha256_of(std::string_view content);
 
 std::string base64_of(std::string_view content);
-
-/// A JSON document as our files hold it: indented, with a last newline. Bytes of names that are not
-/// UTF-8 become U+FFFD.
-std::string json_text(const nlohmann::ordered_json& json);
-/// The document that `content` of `file` holds. Throws Error with file, line and column, and what
-/// was `expected`: "a potential; make one with `stride convert`".
-nlohmann::ordered_json parse_json(std::string_view content, const std::filesystem::path& file,
-                                  std::string_view expected);
 
 }  // namespace stride

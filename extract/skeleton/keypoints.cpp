@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 #include "extract/skeleton/movement.h"
 
 namespace stride {
@@ -18,40 +18,23 @@ using Json = nlohmann::ordered_json;
 constexpr int kVersion = 1;
 constexpr std::string_view kFormat = "stride keypoints";
 
-/// The value of a key, or a sentence about what was expected there.
-template <typename T>
-T value(const Json& object, const char* key, const std::string& what, const char* expected) {
-  const auto found = object.find(key);
-  require(found != object.end(), "{}: \"{}\" is missing: must be {}", what, key, expected);
-  if constexpr (std::is_same_v<T, int>)
-    require(found->is_number() && std::abs(found->template get<double>()) <= 1e9,
-            "{}: {} = {}: must be {}", what, key, found->dump(), expected);
-  try {
-    return found->template get<T>();
-  } catch (const Json::exception&) {
-    throw Error(fmt::format("{}: {} = {}: must be {}", what, key, found->dump(), expected));
-  }
-}
-
-template <typename T>
-T value_or(const Json& object, const char* key, T otherwise, const std::string& what,
-           const char* expected) {
-  if (!object.contains(key) || object.at(key).is_null()) return otherwise;
-  return value<T>(object, key, what, expected);
-}
-
-Eigen::Vector2d point(const Json& json, const std::string& what) {
-  require(json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number(),
-          "{} = {}: must be [x, y] in pixels", what, json.dump());
+Eigen::Vector2d point(const JsonNode& node) {
+  const Json& json = node.json;
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number())
+    node.fail("[x, y] in pixels");
   return {json[0].get<double>(), json[1].get<double>()};
 }
 
-CalibrationLine calibration_line(const Json& json, const std::string& what) {
+CalibrationLine calibration_line(const JsonNode& node) {
+  const std::string what = node.where + ": " + node.path;
+  const Json& json = node.json;
   require(json.is_object() && json.contains("px") && json.at("px").is_array() &&
               json.at("px").size() == 2,
           "{} = {}: must have frame, px [[x, y], [x, y]] and length_m", what, json.dump());
-  return {value<int>(json, "frame", what, "a frame number"), point(json.at("px")[0], what + ": px"),
-          point(json.at("px")[1], what + ": px"), value<double>(json, "length_m", what, "metres")};
+  const JsonNode line{json, what, ""};
+  const auto end = [&](std::size_t i) { return point({json.at("px")[i], what, "px"}); };
+  return {line.value<int>("frame", "a frame number"), end(0), end(1),
+          line.value<double>("length_m", "metres")};
 }
 
 /// The keys that this program does not know, as text.
@@ -69,21 +52,22 @@ void add_others(Json& object, const std::string& other_json) {
     if (!object.contains(key)) object[key] = entry;
 }
 
-ClickState click_state(const Json& click, const std::string& what) {
+ClickState click_state(const JsonNode& click) {
   const std::string allowed = kClickStates.list(" or ");
-  const auto text = value<std::string>(click, "state", what, allowed.c_str());
+  const auto text = click.value<std::string>("state", allowed);
   const std::optional<ClickState> state = kClickStates.find(text);
-  require(state.has_value(), "{}: state = {}: must be {}", what, text, allowed);
+  require(state.has_value(), "{}: state = {}: must be {}", click.where, text, allowed);
   return *state;
 }
 
 Click click_of(const Json& json, const std::string& what) {
   require(json.is_object(), "{} = {}: must be an object with x, y and state", what, json.dump());
+  const JsonNode node{json, what, ""};
   Click click;
-  click.state = click_state(json, what);
+  click.state = click_state(node);
   if (click.state != ClickState::absent)
-    click.p_px = {value<double>(json, "x", what, "a number of pixels"),
-                  value<double>(json, "y", what, "a number of pixels")};
+    click.p_px = {node.value<double>("x", "a number of pixels"),
+                  node.value<double>("y", "a number of pixels")};
   click.other_json = others(json, {"x", "y", "state"});
   return click;
 }
@@ -91,11 +75,11 @@ Click click_of(const Json& json, const std::string& what) {
 void read_frame(const Json& json, const std::string& file, Keypoints& keypoints) {
   require(json.is_object(), "{}: frames: {}: must be an object with frame, time_s and points", file,
           json.dump());
-  const int number = value<int>(json, "frame", file + ": frames", "a frame number");
+  const int number = JsonNode{json, file + ": frames", ""}.value<int>("frame", "a frame number");
   const std::string what = fmt::format("{}: frame {}", file, number);
   require(!keypoints.frames.contains(number), "{} appears twice; keep one of them", what);
   ClickedFrame& frame = keypoints.frames[number];
-  frame.time_s = value<double>(json, "time_s", what, "a time in seconds");
+  frame.time_s = JsonNode{json, what, ""}.value<double>("time_s", "a time in seconds");
   frame.other_json = others(json, {"frame", "time_s", "points"});
   require(json.contains("points") && json.at("points").is_object(),
           "{}: \"points\" must be an object of body parts", what);
@@ -134,13 +118,27 @@ Json json_of(const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); }
 
 /// One of `names`, or nothing where the text is empty or missing.
 template <typename Enum>
-std::optional<Enum> one_of(const Names<Enum>& names, const Json& json, const char* key,
-                           const std::string& file) {
+std::optional<Enum> one_of(const Names<Enum>& names, const JsonNode& root, const char* key) {
   const std::string allowed = names.list(" or "),
-                    text = value_or<std::string>(json, key, "", file, allowed.c_str());
+                    text = root.value_or<std::string>(key, "", allowed);
   const std::optional<Enum> found = names.find(text);
-  require(found || text.empty(), "{}: {} = {}: must be {}", file, key, text, allowed);
+  require(found || text.empty(), "{}: {} = {}: must be {}", root.where, key, text, allowed);
   return found;
+}
+
+FrameRange trim_of(const JsonNode& node) {
+  const std::string what = node.where + ": trim";
+  require(node.json.is_object(), "{} = {}: must name first_frame and last_frame", what,
+          node.json.dump());
+  const JsonNode trim{node.json, what, ""};
+  return {trim.value<int>("first_frame", "a frame number"),
+          trim.value<int>("last_frame", "a frame number")};
+}
+
+FloorLine floor_line(const JsonNode& node) {
+  if (!node.json.is_array() || node.json.size() != 2) node.fail("two points [[x, y], [x, y]]");
+  return {point({node.json[0], node.where, node.path}),
+          point({node.json[1], node.where, node.path})};
 }
 
 }  // namespace
@@ -150,43 +148,32 @@ Keypoints load_keypoints(const fs::path& path) {
   const Json json = parsed(path);
   require(json.is_object() && json.value("format", Json()) == kFormat,
           "{}: not a file of clicks: expected \"format\": \"{}\"", file, kFormat);
-  const int version = value<int>(json, "version", file, "a whole number");
+  const JsonNode root{json, file, ""};
+  const int version = root.value<int>("version", "a whole number");
   require(version >= 1 && version <= kVersion,
           "{}: version {}: this program reads up to version {}; use a newer stride", file, version,
           kVersion);
   Keypoints k;
-  k.video = value<std::string>(json, "video", file, "the file name of the video");
-  k.video_sha256 = value<std::string>(json, "video_sha256", file, "64 hexadecimal digits");
-  k.width_px = value<int>(json, "width_px", file, "a whole number of pixels");
-  k.height_px = value<int>(json, "height_px", file, "a whole number of pixels");
-  k.movement = movement(value_or<std::string>(json, "movement", kDefaultMovement, file, "a name"),
+  k.video = root.value<std::string>("video", "the file name of the video");
+  k.video_sha256 = root.value<std::string>("video_sha256", "64 hexadecimal digits");
+  k.width_px = root.value<int>("width_px", "a whole number of pixels");
+  k.height_px = root.value<int>("height_px", "a whole number of pixels");
+  k.movement = movement(root.value_or<std::string>("movement", kDefaultMovement, "a name"),
                         file + ": movement")
                    .name;
-  k.direction = one_of(kFacings, json, "direction", file);
-  k.near_leg = one_of(kSides, json, "near_leg", file);
-  k.slow_motion = value_or<double>(json, "slow_motion", 1, file, "a factor");
-  if (json.contains("treadmill") && !json.at("treadmill").is_null())
-    k.treadmill = value<bool>(json, "treadmill", file, "true or false");
-  if (json.contains("trim") && !json.at("trim").is_null()) {
-    const Json& trim = json.at("trim");
-    require(trim.is_object(), "{}: trim = {}: must name first_frame and last_frame", file,
-            trim.dump());
-    k.trim = {value<int>(trim, "first_frame", file + ": trim", "a frame number"),
-              value<int>(trim, "last_frame", file + ": trim", "a frame number")};
-  }
-  if (json.contains("floor_line_px") && !json.at("floor_line_px").is_null()) {
-    const Json& line = json.at("floor_line_px");
-    require(line.is_array() && line.size() == 2,
-            "{}: floor_line_px = {}: must be two points [[x, y], [x, y]]", file, line.dump());
-    k.floor = {point(line[0], file + ": floor_line_px"), point(line[1], file + ": floor_line_px")};
-  }
-  if (json.contains("calibration_line") && !json.at("calibration_line").is_null())
-    k.calibration_line = calibration_line(json.at("calibration_line"), file + ": calibration_line");
-  const auto corrects = value_or<std::string>(json, "corrects", "", file, "network");
+  k.direction = one_of(kFacings, root, "direction");
+  k.near_leg = one_of(kSides, root, "near_leg");
+  k.slow_motion = root.value_or<double>("slow_motion", 1, "a factor");
+  if (const auto treadmill = root.find("treadmill"))
+    k.treadmill = treadmill->as<bool>("true or false");
+  if (const auto trim = root.find("trim")) k.trim = trim_of(*trim);
+  if (const auto line = root.find("floor_line_px")) k.floor = floor_line(*line);
+  if (const auto line = root.find("calibration_line")) k.calibration_line = calibration_line(*line);
+  const auto corrects = root.value_or<std::string>("corrects", "", "network");
   require(corrects.empty() || corrects == "network", "{}: corrects = {}: must be network", file,
           corrects);
   k.corrects_network = !corrects.empty();
-  k.notes = value_or<std::string>(json, "notes", "", file, "a text");
+  k.notes = root.value_or<std::string>("notes", "", "a text");
   require(json.contains("frames") && json.at("frames").is_array(),
           "{}: \"frames\" must be a list of clicked frames", file);
   for (const Json& frame : json.at("frames")) read_frame(frame, file, k);

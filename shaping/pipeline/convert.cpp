@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
@@ -17,6 +16,7 @@
 #include "extract/annotation/points_of_video.h"
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 #include "extract/io/outputs.h"
 #include "extract/pose/weights.h"
 #include "extract/skeleton/movement.h"
@@ -196,7 +196,7 @@ class Clip {
                        !load_potential(out(".potential.json")).repeats;
     if (options_.pictures && !drawn) return false;
     if (options_.overlay && is_video(input_) && !fs::exists(out(kOverlay))) return false;
-    const auto json = nlohmann::json::parse(read_file(out(kStamp)), nullptr, false);
+    const auto json = json_or_null(read_file(out(kStamp)));
     const auto text = [&](const char* key) {
       const auto found = json.is_object() ? json.find(key) : json.end();
       return found != json.end() && found->is_string() ? found->get<std::string>() : "";

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 #include "extract/io/outputs.h"
 #include "extract/skeleton/movement.h"
 #include "train/film/evaluation_film.h"

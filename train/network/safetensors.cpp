@@ -2,11 +2,11 @@
 
 #include <bit>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "extract/io/error.h"
 #include "extract/io/file.h"
+#include "extract/io/json/json.h"
 
 namespace stride::network {
 namespace {
@@ -123,9 +123,7 @@ Tensors load_tensors(const std::filesystem::path& path) {
   require(header_size <= content.size() - 8,
           "{}: not a safetensors file, or truncated in its header", tensors.file);
   const std::string_view data = std::string_view(content).substr(8 + header_size);
-  const Json header =
-      Json::parse(content.begin() + 8,
-                  content.begin() + 8 + static_cast<std::ptrdiff_t>(header_size), nullptr, false);
+  const auto header = json_or_null<Json>(std::string_view(content).substr(8, header_size));
   require(header.is_object(), "{}: not a safetensors file: its header is not JSON", tensors.file);
 
   for (const auto& [name, entry] : header.items()) {

@@ -3,9 +3,9 @@
 #include <map>
 
 #include "extract/import/formats/formats.h"
-#include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
 #include "extract/import/parsing/text.h"
+#include "extract/io/json/json_file.h"
 
 namespace stride::imports {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "extract/import/formats/formats.h"
-#include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
+#include "extract/io/json/json_file.h"
 
 namespace stride::imports {
 namespace {

@@ -2,10 +2,10 @@
 
 #include "extract/import/formats/formats.h"
 #include "extract/import/parsing/columns.h"
-#include "extract/import/parsing/json.h"
 #include "extract/import/parsing/labels.h"
 #include "extract/io/csv.h"
 #include "extract/io/error.h"
+#include "extract/io/json/json_file.h"
 
 namespace stride::imports {
 namespace {

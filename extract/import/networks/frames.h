@@ -7,7 +7,7 @@
 
 #include "extract/import/parsing/detections.h"
 #include "extract/import/parsing/format.h"
-#include "extract/import/parsing/json.h"
+#include "extract/io/json/json_file.h"
 
 /// What the readers of pose networks' results share. None of these libraries has a file format of
 /// its own, so the readers go by names and shapes. A network is never as sure as a person: its

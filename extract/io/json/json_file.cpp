@@ -1,4 +1,4 @@
-#include "extract/import/parsing/json.h"
+#include "extract/io/json/json_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "extract/io/error.h"
 
-namespace stride::imports {
+namespace stride {
 namespace {
 
 using nlohmann::json;
@@ -239,4 +239,4 @@ void JsonValue::fail(std::string_view expected) const {
                              : json_->dump(-1, ' ', true, json::error_handler_t::replace)));
 }
 
-}  // namespace stride::imports
+}  // namespace stride

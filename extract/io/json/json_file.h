@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-namespace stride::imports {
+namespace stride {
 
-/// A JSON file whose errors name file, line, pointer and what was expected. It must outlive its
-/// values.
+/// A JSON file of another program: errors name file, line, pointer and what was expected. It must
+/// outlive its values.
 class JsonFile {
  public:
   /// Throws Error naming file, line and column where `content` is not JSON.
@@ -57,4 +57,4 @@ class JsonValue {
   std::string pointer_;  // RFC 6901
 };
 
-}  // namespace stride::imports
+}  // namespace stride
