@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -14,10 +15,22 @@ using Random = std::mt19937_64;
 /// Uniform in [0, 1).
 inline double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
-/// Standard normal (Box and Muller; the second value is not kept, so there is no hidden state).
+/// Of two independent standard normal numbers the distance from 0 (Box and Muller), from a uniform
+/// number in (0, 1].
+inline double normal_radius(double uniform) { return std::sqrt(-2 * std::log(uniform)); }
+
+/// Standard normal (the second value is not kept, so there is no hidden state).
 inline double normal(Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - uniform(random)));
+  const double radius = normal_radius(1 - uniform(random));
   return radius * std::cos(2 * std::numbers::pi * uniform(random));
+}
+
+/// Both values, of uniform numbers in (0, 1): another stream than normal()'s.
+inline std::array<double, 2> normal_pair(Random& random) {
+  const auto inside = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const double radius = normal_radius(inside());
+  const double angle = 2 * std::numbers::pi * inside();
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 /// An independent seed for stream `stream` of a run: a finaliser of splitmix64 over both.

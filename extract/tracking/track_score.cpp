@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <random>
 #include <set>
 
 #include "extract/io/error.h"
+#include "extract/io/random.h"
 #include "extract/io/statistics.h"
 #include "extract/io/table.h"
 #include "extract/tracking/cubic_spline.h"
@@ -44,23 +43,18 @@ Trajectory load_truth(const std::filesystem::path& file, const video::VideoTimes
   return truth;
 }
 
-/// Two independent normal numbers (Box and Muller).
-Vector2d normal_pair(std::mt19937_64& random) {
-  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
-  const double radius = std::sqrt(-2 * std::log(uniform()));
-  const double angle = 2 * std::numbers::pi * uniform();
-  return {radius * std::cos(angle), radius * std::sin(angle)};
-}
-
 Trajectory clicks_on(const Trajectory& truth, int first, int spacing, double noise_px,
                      unsigned seed) {
-  std::mt19937_64 random(seed);
+  Random random(seed);
   Trajectory clicks = truth;
   clicks.frames.clear();
   for (auto i = static_cast<std::size_t>(first); i < truth.frames.size();
        i += static_cast<std::size_t>(spacing)) {
     TrajectoryFrame& frame = clicks.frames.emplace_back(truth.frames[i]);
-    for (const BodyPart part : kRequiredParts) frame[part].p_px += noise_px * normal_pair(random);
+    for (const BodyPart part : kRequiredParts) {
+      const auto [x, y] = normal_pair(random);
+      frame[part].p_px += noise_px * Vector2d(x, y);
+    }
   }
   return clicks;
 }
