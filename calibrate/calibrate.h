@@ -19,7 +19,7 @@ struct AperiodicCalibration {
 
 /// The result of a calibration.
 struct Calibration {
-  gait::Verdict verdict;
+  gait::ClipVerdict verdict;
   fit::Marks observations;
   fit::StrideFit fit;  // ok is false if the clip was refused before or by the fit
   gait::Gait gait;

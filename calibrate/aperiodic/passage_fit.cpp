@@ -54,7 +54,7 @@ void add_marks(const Problem& problem, PassageFit& fit, fit::Loss loss, ceres::P
     double* const c = p.knots[static_cast<std::size_t>(at.first)].data();
     ceres.AddResidualBlock(
         automatic<2, limb::size, kAngles, kAngles, kAngles, kAngles, 2>(
-            PointResidual{mark.part, problem.directions, at.weight, mark.z_px, own}),
+            PassagePointResidual{mark.part, problem.directions, at.weight, mark.z_px, own}),
         robust(), p.limbs.data(), c, c + kAngles, c + 2 * kAngles, c + 3 * kAngles, pelvis);
   }
 }

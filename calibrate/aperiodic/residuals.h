@@ -10,7 +10,7 @@ namespace stride::aperiodic {
 
 /// A marked point z of a part: r = (p + q(Σ w_k c_k) − z) / σ with the pelvis p of this frame, the
 /// part q of the runner from the pelvis, and the control points c that matter at this time.
-struct PointResidual {
+struct PassagePointResidual {
   BodyPart part;
   Directions directions;
   std::array<double, 4> weight;

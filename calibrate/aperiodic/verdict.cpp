@@ -9,7 +9,7 @@ namespace stride::aperiodic {
 namespace {
 
 /// Frames on which a part that is needed lies outside the picture: it was not seen there.
-void judge_picture(const Trajectory& trajectory, gait::Verdict& verdict) {
+void judge_picture(const Trajectory& trajectory, gait::ClipVerdict& verdict) {
   int first = -1, last = -1, count = 0;
   for (const TrajectoryFrame& frame : trajectory.frames) {
     const bool outside = std::ranges::any_of(kRequiredParts, [&](BodyPart part) {
@@ -34,7 +34,7 @@ void judge_picture(const Trajectory& trajectory, gait::Verdict& verdict) {
 
 /// Longest stretch of frames on which a foot was not seen in the middle of the movement.
 void judge_unseen(const Trajectory& trajectory, const fit::Marks& marks, const Flight& flight,
-                  gait::Verdict& verdict) {
+                  gait::ClipVerdict& verdict) {
   int unseen = 0, frames = 0;
   for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
     if (marks.u_s[i] < flight.take_off_s - 0.1 || marks.u_s[i] > flight.landing_s + 0.1) continue;
@@ -48,7 +48,7 @@ void judge_unseen(const Trajectory& trajectory, const fit::Marks& marks, const F
         unseen, frames));
 }
 
-void judge_fall(const Scale& scale, gait::Verdict& verdict) {
+void judge_fall(const Scale& scale, gait::ClipVerdict& verdict) {
   constexpr double kUnlike = 3;  // standard deviations
   if (std::abs(scale.disagreement) > kUnlike) {
     const std::string text = fmt::format(
@@ -63,7 +63,7 @@ void judge_fall(const Scale& scale, gait::Verdict& verdict) {
 
 void judge_passage(const Trajectory& trajectory, const fit::Marks& marks, const PassageFit& fit,
                    const GroundPath& path, const Flight& flight, const Scale& scale,
-                   gait::Verdict& verdict) {
+                   gait::ClipVerdict& verdict) {
   if (!fit.ok) {
     verdict.refuse(fit.failure);
     return;

@@ -8,6 +8,6 @@ namespace stride::aperiodic {
 /// Checks of the fit of a jump; adds to `verdict`.
 void judge_passage(const Trajectory& trajectory, const fit::Marks& observations,
                    const PassageFit& fit, const GroundPath& path, const Flight& flight,
-                   const Scale& scale, gait::Verdict& verdict);
+                   const Scale& scale, gait::ClipVerdict& verdict);
 
 }  // namespace stride::aperiodic

@@ -24,8 +24,8 @@ HumanRunning load_human_running() {
     return values;
   };
   const auto joint = [&](const std::string& name) {
-    return HumanRunning::Joint{column(name + "_mean", kDegree), column(name + "_low", kDegree),
-                               column(name + "_high", kDegree)};
+    return HumanRunning::AngleBand{column(name + "_mean", kDegree), column(name + "_low", kDegree),
+                                   column(name + "_high", kDegree)};
   };
   return {column("percent", 0.01), joint("hip"), joint("knee"), joint("ankle")};
 }

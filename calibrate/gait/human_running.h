@@ -8,11 +8,11 @@ namespace stride::gait {
 /// Sagittal angles of measured runners against the stride from foot strike, rad: mean and range of
 /// their strides (calibrate/data/human_running.csv names them).
 struct HumanRunning {
-  struct Joint {
+  struct AngleBand {
     std::vector<double> mean, low, high;  // at `phase`
   };
   std::vector<double> phase;  // 0 … 1
-  Joint hip, knee, ankle;
+  AngleBand hip, knee, ankle;
 
   /// Linear between the samples.
   double at(const std::vector<double>& curve, double phase) const;

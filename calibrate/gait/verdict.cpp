@@ -41,7 +41,7 @@ double median_length(const Trajectory& trajectory, BodyPart a, BodyPart b) {
   return median(values);
 }
 
-void judge_parts(const Trajectory& trajectory, Verdict& verdict) {
+void judge_parts(const Trajectory& trajectory, ClipVerdict& verdict) {
   constexpr std::size_t kLeastFrames = 8;
   const std::size_t frames = trajectory.frames.size();
   if (frames < kLeastFrames) {
@@ -77,7 +77,7 @@ Eigen::Vector2d mean_leg_px(const Trajectory& trajectory) {
 }
 
 /// Legs hang down from a pelvis that is between the hips.
-void judge_posture(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+void judge_posture(const Trajectory& trajectory, double leg_px, ClipVerdict& verdict) {
   const Eigen::Vector2d leg = mean_leg_px(trajectory);
   if (leg.y() < 0 && -leg.y() > std::abs(leg.x()))
     verdict.refuse(
@@ -110,7 +110,7 @@ bool is_normalised(const Trajectory& trajectory) {
 }
 
 /// Amplitude of the ankles in leg lengths; a runner's is about two thirds fore and aft.
-void judge_view(const Trajectory& trajectory, Verdict& verdict) {
+void judge_view(const Trajectory& trajectory, ClipVerdict& verdict) {
   double leg = 0, fore_aft = 0, vertical = 0;
   for (const auto& [knee, ankle] : {std::pair{BodyPart::knee_r, BodyPart::ankle_r},
                                     std::pair{BodyPart::knee_l, BodyPart::ankle_l}}) {
@@ -155,7 +155,7 @@ bool scene_changes(const Trajectory& trajectory, std::size_t i, double leg_px) {
 
 /// Frames whose background is unrelated to the previous frame's. Many of them mean that the
 /// background cannot be followed, and say nothing.
-void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) {
+void judge_scene(const Trajectory& trajectory, double leg_px, ClipVerdict& verdict) {
   std::vector<int> changes;
   for (std::size_t i = 1; i < trajectory.frames.size(); ++i)
     if (scene_changes(trajectory, i, leg_px)) changes.push_back(trajectory.frames[i].frame);
@@ -166,7 +166,7 @@ void judge_scene(const Trajectory& trajectory, double leg_px, Verdict& verdict) 
 }
 
 /// A camera that tilts or zooms does not tell how the ground lies.
-void judge_camera(const Trajectory& trajectory, Verdict& verdict) {
+void judge_camera(const Trajectory& trajectory, ClipVerdict& verdict) {
   if (std::isfinite(trajectory.floor_roll_rad) || !fit::camera_turns(trajectory)) return;
   verdict.note(
       fmt::format("the camera tilts or zooms, so the ground's slope is known from the standing "
@@ -177,7 +177,7 @@ void judge_camera(const Trajectory& trajectory, Verdict& verdict) {
 
 /// Jumps of the pelvis by more than half a leg between neighbouring frames.
 void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
-                const fit::StrideFit& fit, double leg_px, Verdict& verdict) {
+                const fit::StrideFit& fit, double leg_px, ClipVerdict& verdict) {
   for (std::size_t i = 1; i < fit.pelvis_px.size(); ++i) {
     const double jump = (fit.pelvis_px[i] - fit.pelvis_px[i - 1]).norm();
     const double gap_s = observations.u_s[i] - observations.u_s[i - 1];
@@ -191,7 +191,7 @@ void judge_cuts(const Trajectory& trajectory, const fit::Marks& observations,
 }
 
 /// The longest time in which nothing is seen: no point at all, or only points from the prior.
-void judge_gaps(const Trajectory& trajectory, double period_s, Verdict& verdict) {
+void judge_gaps(const Trajectory& trajectory, double period_s, ClipVerdict& verdict) {
   constexpr double kLongest = 1.0 / 3;  // of a stride
   const TrajectoryFrame* last = nullptr;
   std::array<const TrajectoryFrame*, 2> gap{};
@@ -233,7 +233,7 @@ double apparent_gravity(const fit::StrideFit& fit) {
 }
 
 /// What no runner does.
-void judge_heights(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+void judge_heights(const fit::StrideFit& fit, const Gait& gait, ClipVerdict& verdict) {
   constexpr double kMost_m = 0.35;  // in a step; runners' pelvis rises by 0.06 to 0.13
   if (gait.vertical_oscillation_m > kMost_m)
     verdict.refuse(
@@ -252,7 +252,7 @@ void judge_heights(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict
 }
 
 /// One alarm may be a runner of an odd kind; several together are no runner.
-void judge_alarms(Verdict& verdict) {
+void judge_alarms(ClipVerdict& verdict) {
   constexpr int kMost = 3;
   if (verdict.refused || verdict.alarms <= kMost) return;
   const std::string reasons = fmt::format("{}", fmt::join(verdict.reasons, "; "));
@@ -262,7 +262,7 @@ void judge_alarms(Verdict& verdict) {
 /// Whether the clip's time is the runner's. Returns whether it plays slowly, which then explains
 /// all that is odd about falling and speed.
 bool judge_time(const Trajectory& trajectory, const fit::StrideFit& fit, const Gait& gait,
-                double strides, Verdict& verdict) {
+                double strides, ClipVerdict& verdict) {
   const double period = fit.runner.cadence[cadence::period_s];
   if (strides < 0.9)
     verdict.refuse(fmt::format(
@@ -286,7 +286,7 @@ bool judge_time(const Trajectory& trajectory, const fit::StrideFit& fit, const G
   return period > longest;
 }
 
-void judge_speed(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+void judge_speed(const fit::StrideFit& fit, const Gait& gait, ClipVerdict& verdict) {
   constexpr double kSprint_m_s = 8, kRecord_m_s = 12.5;  // Bolt's fastest 20 m: 12.4
   constexpr const char* kCure =
       "is the frame rate, the slow-motion factor (--slow-motion) or the runner's size (--leg) "
@@ -303,25 +303,25 @@ void judge_speed(const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) 
 
 }  // namespace
 
-void Verdict::refuse(std::string reason) {
+void ClipVerdict::refuse(std::string reason) {
   if (!refused) reasons.clear();
   refused = true;
   reasons.push_back(std::move(reason));
 }
 
-std::string Verdict::text() const {
+std::string ClipVerdict::text() const {
   if (reasons.empty()) return "ok";
   return fmt::format("{}{}", refused ? "refused: " : "ok, but ", fmt::join(reasons, "; "));
 }
 
-Verdict judge_marks(const Trajectory& trajectory) {
-  Verdict verdict;
+ClipVerdict judge_marks(const Trajectory& trajectory) {
+  ClipVerdict verdict;
   judge_parts(trajectory, verdict);
   if (!verdict.refused) judge_view(trajectory, verdict);
   return verdict;
 }
 
-void judge_misses(double relative, bool backward, Verdict& verdict) {
+void judge_misses(double relative, bool backward, ClipVerdict& verdict) {
   if (relative > 0.1)
     verdict.refuse(
         fmt::format("the marks miss the fitted runner by {:.0f} % of a leg: are they on "
@@ -335,7 +335,7 @@ void judge_misses(double relative, bool backward, Verdict& verdict) {
 }
 
 void judge_line(const CalibrationLine& line, double leg_px, const fit::Prior& leg_m,
-                std::string_view whose, Verdict& verdict) {
+                std::string_view whose, ClipVerdict& verdict) {
   constexpr double kLeast_m = 0.2, kMost_m = 1.5,
                    kUnlike = 3;  // of any runner; standard deviations
   const double by_line_m = leg_px * line.metres_per_pixel();
@@ -352,7 +352,7 @@ void judge_line(const CalibrationLine& line, double leg_px, const fit::Prior& le
 }
 
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
-               const fit::StrideFit& fit, const Gait& gait, Verdict& verdict) {
+               const fit::StrideFit& fit, const Gait& gait, ClipVerdict& verdict) {
   if (!fit.ok) {
     verdict.refuse(fit.failure);
     return;

@@ -12,7 +12,7 @@
 namespace stride::gait {
 
 /// Whether a clip can be explained as one runner in side view, and what is unusual about it.
-struct Verdict {
+struct ClipVerdict {
   bool refused = false;
   std::vector<std::string> reasons;  // each with what to do about it
   int alarms = 0;                    // reasons that are unlike a runner
@@ -29,20 +29,20 @@ struct Verdict {
 
 /// Checks before the fit: missing parts, a clip upside down, somebody who stands or runs towards
 /// the camera.
-Verdict judge_marks(const Trajectory& trajectory);
+ClipVerdict judge_marks(const Trajectory& trajectory);
 
 /// Checks of any fit: the robust sd of its marks in legs, and whether its knees bend the wrong way.
 /// Adds to `verdict`.
-void judge_misses(double relative, bool backward, Verdict& verdict);
+void judge_misses(double relative, bool backward, ClipVerdict& verdict);
 
 /// Compares a calibration line with the runner: the leg that it makes, from `leg_px` at its moment,
 /// against `leg_m` with its relative sd, which is what `whose` ("usual", "given") says. Adds to
 /// `verdict`.
 void judge_line(const CalibrationLine& line, double leg_px, const fit::Prior& leg_m,
-                std::string_view whose, Verdict& verdict);
+                std::string_view whose, ClipVerdict& verdict);
 
 /// Checks of the fit; adds to `verdict`.
 void judge_fit(const Trajectory& trajectory, const fit::Marks& observations,
-               const fit::StrideFit& fit, const Gait& gait, Verdict& verdict);
+               const fit::StrideFit& fit, const Gait& gait, ClipVerdict& verdict);
 
 }  // namespace stride::gait

@@ -25,7 +25,7 @@ Vector2d on_ground(const AperiodicCalibration& own, const Vector2d& px) {
 /// Labelled points of a part from the fitted pelvis, in axes of the ground: time, x, y, outlier.
 std::string passage_marks(const Calibration& c, BodyPart part) {
   const AperiodicCalibration& own = *c.aperiodic;
-  Block points(fmt::format("{}_marks", name(part)));
+  DataBlock points(fmt::format("{}_marks", name(part)));
   for (std::size_t i = 0; i < own.fit.marks.size(); ++i) {
     const fit::Mark& mark = c.observations.points[i];
     if (mark.part != part) continue;
@@ -45,7 +45,7 @@ double moment_s(const Calibration& c, int i) {
 /// The fit of a part from the pelvis: time, x, y.
 std::string curve(const Calibration& c, const Directions& directions, BodyPart part) {
   const AperiodicCalibration& own = *c.aperiodic;
-  Block block{std::string(name(part))};
+  DataBlock block{std::string(name(part))};
   for (int i = 0; i <= kCurvePoints; ++i) {
     const double u = moment_s(c, i);
     const Vector2d p =
@@ -75,7 +75,7 @@ double angle_sd(const aperiodic::PassageFit& fit, double u_s, aperiodic::Angle a
 std::string joint(const Calibration& c, const char* name, aperiodic::Angle right,
                   aperiodic::Angle left) {
   const aperiodic::PassageFit& fit = c.aperiodic->fit;
-  Block block(name);
+  DataBlock block(name);
   for (int i = 0; i <= kCurvePoints; ++i) {
     const double u = moment_s(c, i);
     const aperiodic::Angles angles = fit.passage.angles(u);
@@ -94,7 +94,7 @@ std::string joint(const Calibration& c, const char* name, aperiodic::Angle right
 std::string heights(const Calibration& c) {
   const AperiodicCalibration& own = *c.aperiodic;
   const double px_per_m = own.scale.px_per_m;
-  Block block("heights"), fall("fall");
+  DataBlock block("heights"), fall("fall");
   const auto risen = [&](const std::vector<Vector2d>& points_px, std::size_t i) {
     return (points_px[i] - points_px.front()).y() / px_per_m;
   };

@@ -19,7 +19,7 @@ std::string outside_band(const fit::StrideFit& fit, const gait::Gait& gait) {
   const Runner& r = fit.runner;
   std::string text;
   const auto compare = [&](const char* joint, const auto& curve,
-                           const gait::HumanRunning::Joint& band) {
+                           const gait::HumanRunning::AngleBand& band) {
     int outside = 0, since = -1;
     double farthest = 0, where = 0;
     std::string spans;

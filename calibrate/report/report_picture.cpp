@@ -23,7 +23,7 @@ double percent(double phase) { return 100 * (phase - std::floor(phase)); }
 /// middle of the clip: time, % of the leg's own stride, x, y, outlier.
 std::string marks(const Calibration& c, BodyPart part) {
   const Runner& r = c.fit.runner;
-  Block points(fmt::format("{}_marks", name(part)));
+  DataBlock points(fmt::format("{}_marks", name(part)));
   for (std::size_t i = 0; i < c.fit.marks.size(); ++i) {
     const fit::Mark& mark = c.observations.points[i];
     if (mark.part != part) continue;
@@ -53,7 +53,7 @@ Eigen::Vector2d fitted(const fit::StrideFit& fit, const Directions& directions, 
 /// The fit over the clip (time, x) and over the leg's own stride with its 95 % band
 /// (%, x, y, x low, x high, y low, y high).
 std::string curves(const Calibration& c, const Directions& directions, BodyPart part) {
-  Block in_time(fmt::format("{}_time", name(part))), in_phase(std::string(name(part)));
+  DataBlock in_time(fmt::format("{}_time", name(part))), in_phase(std::string(name(part)));
   for (int i = 0; i <= 400; ++i) {
     const double u = (i / 400.0 - 0.5) * c.observations.duration_s;
     in_time.row(u + c.observations.middle_s,
@@ -73,7 +73,7 @@ std::string curves(const Calibration& c, const Directions& directions, BodyPart 
 
 /// Stick figures of the model at eight phases, side by side.
 std::string poses(const Calibration& c) {
-  Block right("right"), left("left"), trunk("trunk");
+  DataBlock right("right"), left("left"), trunk("trunk");
   for (int k = 0; k < kReportKeyframes; ++k) {
     const double phase = static_cast<double>(k) / kReportKeyframes;
     const auto nearest = std::ranges::min_element(c.run.samples, {}, [&](const auto& sample) {
@@ -81,12 +81,12 @@ std::string poses(const Calibration& c) {
       return std::abs(d - std::round(d));
     });
     const Eigen::Vector2d at(1.15 * k, nearest->coordinates[2]);
-    const auto joint = [&](Block& block, BodyPart part) {
+    const auto joint = [&](DataBlock& block, BodyPart part) {
       const Eigen::Vector2d p = at + (*nearest)[part];
       const Eigen::Vector2d sd = nearest->sd_m[index(part)];
       block.row(p.x(), p.y(), 2 * sd.x(), 2 * sd.y());
     };
-    const auto chain = [&](Block& block, std::span<const Bone> bones) {
+    const auto chain = [&](DataBlock& block, std::span<const Bone> bones) {
       BodyPart end = bones.front().from;
       joint(block, end);
       for (const auto& [from, to] : bones) {
@@ -106,7 +106,7 @@ std::string poses(const Calibration& c) {
 /// Hip, knee and ankle over the stride with 95 % bands, and the range of measured runners.
 std::string angles(const Calibration& c) {
   const gait::HumanRunning human = gait::load_human_running();
-  Block mean("angles"), band("band");
+  DataBlock mean("angles"), band("band");
   for (int i = 0; i <= 50; ++i) {
     const double at = i / 50.0 + c.gait.foot_strike;
     const auto values = [&](const fit::StrideFit& fit) -> Eigen::VectorXd {

@@ -25,9 +25,9 @@ inline constexpr auto kTraced = parts_where<[](const BodyPartRow& each) {
 }>();
 
 /// A block of data of a gnuplot script.
-class Block {
+class DataBlock {
  public:
-  explicit Block(const std::string& name) : text_(fmt::format("${} << EOD\n", name)) {}
+  explicit DataBlock(const std::string& name) : text_(fmt::format("${} << EOD\n", name)) {}
   template <typename... Numbers>
   void row(Numbers... numbers) {
     ((text_ += std::isnan(static_cast<double>(numbers))

@@ -113,7 +113,7 @@ std::vector<Candidate> PersonDetector::find(const cv::Mat& bgr, const Crop& regi
 LandmarkNetwork::LandmarkNetwork(const std::filesystem::path& file)
     : net_(load_network(file, kLandmarkSide, landmark_checks())) {}
 
-Body LandmarkNetwork::look(const cv::Mat& bgr, const Crop& crop) {
+PoseLandmarks LandmarkNetwork::look(const cv::Mat& bgr, const Crop& crop) {
   net_.setInput(shown(bgr, crop, kLandmarkSide, 0, 1));
   std::vector<cv::Mat> outputs;
   net_.forward(outputs, std::vector<std::string>{"Identity", "Identity_1", "Identity_3"});
@@ -121,7 +121,7 @@ Body LandmarkNetwork::look(const cv::Mat& bgr, const Crop& crop) {
     return crop.in_image(p / kLandmarkSide);
   };
   constexpr double kCell_px = static_cast<double>(kLandmarkSide) / kMapSide;
-  Body body;
+  PoseLandmarks body;
   body.presence = outputs[1].ptr<float>()[0];
   for (int k = 0; k < kLandmarks; ++k) {
     const float* row = outputs[0].ptr<float>() + 5 * k;

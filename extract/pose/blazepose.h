@@ -29,7 +29,7 @@ struct Landmark {
 
 inline constexpr int kLandmarks = 33;
 
-struct Body {
+struct PoseLandmarks {
   double presence = 0;  // that the crop shows a person, 0 … 1
   std::array<Landmark, kLandmarks> landmarks;
   Crop next;  // the crop of the same person on the next frame
@@ -53,7 +53,7 @@ class LandmarkNetwork {
  public:
   explicit LandmarkNetwork(const std::filesystem::path& file);
   /// The body of the person around whom the crop lies.
-  Body look(const cv::Mat& bgr, const Crop& crop);
+  PoseLandmarks look(const cv::Mat& bgr, const Crop& crop);
 
  private:
   cv::dnn::Net net_;

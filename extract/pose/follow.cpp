@@ -26,11 +26,11 @@ constexpr std::size_t kHipL = 23, kHipR = 24, kAnkleL = 27, kAnkleR = 28;
 /// Somebody on a sampled frame.
 struct Sighting {
   int frame = 0;
-  Body body;
+  PoseLandmarks body;
   double quality = 0;
 };
 
-Vector2d hips(const Body& body) {
+Vector2d hips(const PoseLandmarks& body) {
   return (body.landmarks[kHipL].p_px + body.landmarks[kHipR].p_px) / 2;
 }
 
@@ -59,7 +59,7 @@ void add_sightings(const cv::Mat& image, int frame, const std::vector<Crop>& reg
                    Viewer& viewer, std::vector<Sighting>& sightings) {
   for (const Crop& region : regions)
     for (const Candidate& candidate : viewer.find(image, region)) {
-      const Body body = viewer.look(image, candidate.crop);
+      const PoseLandmarks body = viewer.look(image, candidate.crop);
       if (body.presence >= kPresent)
         sightings.push_back({frame, body, candidate.score * body.presence});
     }
@@ -103,7 +103,7 @@ struct Path {
   }
 };
 
-bool continues(const Path& path, const Body& body) {
+bool continues(const Path& path, const PoseLandmarks& body) {
   const Crop expected = path.expected();
   const double reach = (path.speed_is_known ? kFarthestJump : kFirstJump) *
                        std::min(1 + 0.2 * path.missed, kMostLenience) * expected.size_px;
@@ -113,17 +113,17 @@ bool continues(const Path& path, const Body& body) {
 }
 
 /// The person of a path on a frame, by the landmarks or, where they fail, by the detector near by.
-std::optional<Body> seen_on(const cv::Mat& image, const Path& path, Viewer& viewer) {
+std::optional<PoseLandmarks> seen_on(const cv::Mat& image, const Path& path, Viewer& viewer) {
   const Crop expected = path.expected();
   if (path.missed == 0) {
-    Body body = viewer.look(image, expected);
+    PoseLandmarks body = viewer.look(image, expected);
     if (continues(path, body)) return body;
   }
   Crop around = expected;
   around.size_px *= 2;
   around.angle_rad = 0;
   for (const Candidate& candidate : viewer.find(image, around)) {
-    Body body = viewer.look(image, candidate.crop);
+    PoseLandmarks body = viewer.look(image, candidate.crop);
     if (continues(path, body)) return body;
   }
   return std::nullopt;
@@ -131,12 +131,13 @@ std::optional<Body> seen_on(const cv::Mat& image, const Path& path, Viewer& view
 
 /// Follows from the frame after `from` to the last one (step 1), or back to the first (−1).
 void follow(const Frames& frames, const Sighting& from, int step, Viewer& viewer,
-            std::vector<std::optional<Body>>& bodies, const std::function<void()>& looked) {
+            std::vector<std::optional<PoseLandmarks>>& bodies,
+            const std::function<void()>& looked) {
   Path path{from.body.next};
   for (int frame = from.frame + step; frame >= 0 && frame < frames.count; frame += step) {
     const cv::Mat image = frames.image(frame);
     if (!inside(path.expected().centre_px, image)) return;
-    const std::optional<Body> body = seen_on(image, path, viewer);
+    const std::optional<PoseLandmarks> body = seen_on(image, path, viewer);
     if (body) {
       path.add(body->next);
       bodies[static_cast<std::size_t>(frame)] = body;
@@ -153,7 +154,7 @@ std::vector<int> steps_of(const FollowedPerson& person) {
   std::vector<int> steps;
   bool apart = false;
   for (std::size_t i = 0; i < person.frames.size(); ++i) {
-    const std::optional<Body>& body = person.frames[i];
+    const std::optional<PoseLandmarks>& body = person.frames[i];
     if (!body) continue;
     const Vector2d &left = body->landmarks[kAnkleL].p_px, &right = body->landmarks[kAnkleR].p_px;
     const double leg = std::max((left - hips(*body)).norm(), (right - hips(*body)).norm()),
@@ -186,7 +187,7 @@ FollowedPerson followed(const Frames& frames, const Sighting& from, Viewer& forw
   FollowedPerson person;
   person.frames.resize(static_cast<std::size_t>(frames.count));
   // Once more, in the crop that the landmarks ask for.
-  const Body again = forward.look(frames.image(from.frame), from.body.next);
+  const PoseLandmarks again = forward.look(frames.image(from.frame), from.body.next);
   person.frames[static_cast<std::size_t>(from.frame)] =
       again.presence >= kPresent ? again : from.body;
   auto back = std::async(std::launch::async,

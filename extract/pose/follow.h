@@ -12,7 +12,7 @@ namespace stride::pose {
 /// What looks at pictures: the two networks, or a test's stand-ins. Used by one thread at a time.
 struct Viewer {
   std::function<std::vector<Candidate>(const cv::Mat& bgr, const Crop& region)> find;
-  std::function<Body(const cv::Mat& bgr, const Crop& crop)> look;
+  std::function<PoseLandmarks(const cv::Mat& bgr, const Crop& crop)> look;
 };
 
 /// The frames of a clip, in any order, from two threads.
@@ -28,8 +28,9 @@ struct FollowOptions {
 };
 
 struct FollowedPerson {
-  std::vector<std::optional<Body>> frames;  // of each frame of the clip; nothing where lost
-  int seen = 0;                             // frames
+  std::vector<std::optional<PoseLandmarks>>
+      frames;        // of each frame of the clip; nothing where lost
+  int seen = 0;      // frames
   int striding = 0;  // frames of the longest time in which steps followed one another regularly
 };
 

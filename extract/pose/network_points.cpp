@@ -99,7 +99,7 @@ struct Networks {
   }
 };
 
-bool is_doubtful(const Body& body) {
+bool is_doubtful(const PoseLandmarks& body) {
   double sum = 0;
   for (const std::size_t k : {25, 26, 27, 28}) sum += body.landmarks[k].peak;
   return sum < 4 * kSeenWell;
@@ -108,7 +108,7 @@ bool is_doubtful(const Body& body) {
 Followed summary(const FollowedPerson& person) {
   Followed followed;
   int unseen = 0;  // since the last frame on which he was seen
-  for (const std::optional<Body>& body : person.frames) {
+  for (const std::optional<PoseLandmarks>& body : person.frames) {
     if (!body) {
       if (followed.frames > 0) ++unseen;
       continue;
@@ -172,7 +172,7 @@ std::vector<FollowedPerson> people_in(const std::filesystem::path& video,
 
 }  // namespace
 
-imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image) {
+imports::ImportedFrame points_of(const PoseLandmarks& body, int frame, cv::Size image) {
   imports::ImportedFrame result;
   result.frame = frame;
   const double hips_px = (body.landmarks[23].p_px.x() + body.landmarks[24].p_px.x()) / 2;

@@ -38,6 +38,6 @@ NetworkPoints network_points(const std::filesystem::path& video,
 
 /// The parts of one body, the more confident the higher their heat maps; those outside an image of
 /// this size are absent, and both legs where the hips are so near to its side that one may be.
-imports::ImportedFrame points_of(const Body& body, int frame, cv::Size image);
+imports::ImportedFrame points_of(const PoseLandmarks& body, int frame, cv::Size image);
 
 }  // namespace stride::pose

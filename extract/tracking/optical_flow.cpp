@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 /// Image pyramids of the crops, built on demand.
 class Pyramids {
  public:
-  Pyramids(const std::vector<video::Crop>& crops, const FlowOptions& options)
+  Pyramids(const std::vector<video::RunnerCrop>& crops, const FlowOptions& options)
       : crops_(crops), options_(options), pyramids_(crops.size()) {}
 
   const std::vector<cv::Mat>& at(std::size_t i) {
@@ -29,7 +29,7 @@ class Pyramids {
   }
 
  private:
-  const std::vector<video::Crop>& crops_;
+  const std::vector<video::RunnerCrop>& crops_;
   const FlowOptions& options_;
   std::vector<std::vector<cv::Mat>> pyramids_;
   std::size_t forgotten_ = 0;
@@ -67,8 +67,8 @@ std::vector<Pass> passes(const Trajectory& marks, const FlowOptions& options) {
 
 class Follower {
  public:
-  Follower(int first_frame, const std::vector<video::Crop>& crops, const ExpectedPlace& expected,
-           const FlowOptions& options)
+  Follower(int first_frame, const std::vector<video::RunnerCrop>& crops,
+           const ExpectedPlace& expected, const FlowOptions& options)
       : first_frame_(first_frame),
         crops_(crops),
         expected_(expected),
@@ -158,7 +158,7 @@ class Follower {
   }
 
   int first_frame_;
-  const std::vector<video::Crop>& crops_;
+  const std::vector<video::RunnerCrop>& crops_;
   const ExpectedPlace& expected_;
   const FlowOptions& options_;
   Pyramids pyramids_;
@@ -166,7 +166,8 @@ class Follower {
 
 }  // namespace
 
-std::vector<FlowStretch> follow(const Trajectory& marks, const std::vector<video::Crop>& crops,
+std::vector<FlowStretch> follow(const Trajectory& marks,
+                                const std::vector<video::RunnerCrop>& crops,
                                 const ExpectedPlace& expected, const FlowOptions& options) {
   std::vector<FlowStretch> stretches;
   if (marks.frames.empty()) return stretches;

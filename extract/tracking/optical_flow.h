@@ -41,7 +41,8 @@ using ExpectedPlace = std::function<Eigen::Vector2d(BodyPart, int frame)>;
 /// Follows parts by pyramidal Lucas–Kanade, starting from the prior, between consecutive labelled
 /// points in both directions. `crops` has one for each frame from the first labelled one to the
 /// last.
-std::vector<FlowStretch> follow(const Trajectory& marks, const std::vector<video::Crop>& crops,
+std::vector<FlowStretch> follow(const Trajectory& marks,
+                                const std::vector<video::RunnerCrop>& crops,
                                 const ExpectedPlace& expected, const FlowOptions& options = {});
 
 }  // namespace stride::tracking

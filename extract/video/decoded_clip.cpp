@@ -56,7 +56,7 @@ class RunnerBox {
 };
 
 /// JPEG of high quality takes a sixth.
-void pack(Crop& crop) {
+void pack(RunnerCrop& crop) {
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", crop.gray, bytes, {cv::IMWRITE_JPEG_QUALITY, 95});
   crop.packed = cv::Mat(bytes, true).reshape(1, 1);
@@ -64,13 +64,13 @@ void pack(Crop& crop) {
 }
 
 /// The box moved inside the frame: Lucas–Kanade needs crops of one size.
-Crop cropped(const cv::Mat& bgr, cv::Rect box) {
+RunnerCrop cropped(const cv::Mat& bgr, cv::Rect box) {
   box.width = std::min(box.width, bgr.cols);
   box.height = std::min(box.height, bgr.rows);
   box.x = std::clamp(box.x, 0, bgr.cols - box.width);
   box.y = std::clamp(box.y, 0, bgr.rows - box.height);
   if (box.empty()) box = cv::Rect(0, 0, bgr.cols, bgr.rows);
-  Crop crop;
+  RunnerCrop crop;
   cv::cvtColor(bgr(box), crop.gray, cv::COLOR_BGR2GRAY);
   crop.origin = box.tl();
   return crop;
@@ -78,7 +78,7 @@ Crop cropped(const cv::Mat& bgr, cv::Rect box) {
 
 }  // namespace
 
-cv::Mat Crop::image() const {
+cv::Mat RunnerCrop::image() const {
   return packed.empty() ? gray : cv::imdecode(packed, cv::IMREAD_GRAYSCALE);
 }
 
@@ -109,7 +109,7 @@ DecodedClip decode_clip(const Trajectory& marks, const FrameSource& frames,
     if (frame.index < first || frame.index > last) continue;
     if (options.crops) {
       const Vector2d margin = Vector2d::Constant(0.4 * size_px + 16);
-      Crop& crop =
+      RunnerCrop& crop =
           clip.crops.emplace_back(cropped(frame.image, runner.at(frame.index, margin, margin)));
       held_bytes += static_cast<double>(crop.gray.total());
       if (held_bytes > options.most_bytes) pack(crop);

@@ -12,7 +12,7 @@
 namespace stride::video {
 
 /// A crop of a frame around the runner.
-struct Crop {
+struct RunnerCrop {
   cv::Mat gray;      // or empty, and
   cv::Mat packed;    // one row of JPEG bytes
   cv::Point origin;  // of its top left pixel in the frame
@@ -24,7 +24,8 @@ struct Crop {
 struct DecodedClip {
   std::vector<double> times_s;  // of every frame that could be decoded
   int first_frame = 0;          // of `crops` and `camera`: the first labelled frame
-  std::vector<Crop> crops;      // of each frame to the last labelled one, all of one size; or none
+  std::vector<RunnerCrop>
+      crops;  // of each frame to the last labelled one, all of one size; or none
   std::vector<CameraStep> camera;  // likewise, or none
   std::string shortfall;           // as Video::shortfall()
 };

@@ -87,7 +87,7 @@ void Explorer<Scalar>::perturb(const network::Policy<Scalar>& policy,
 }
 
 template <typename Scalar>
-Outcome Explorer<Scalar>::repeat(const Eigen::Ref<const Vector>& action, double& reward) {
+RecordKind Explorer<Scalar>::repeat(const Eigen::Ref<const Vector>& action, double& reward) {
   applied_ = action.template cast<double>();
   const double step_s = environment_->spec().step_s;
   network::EpisodeSummary& episode = state_.episode;
@@ -102,10 +102,10 @@ Outcome Explorer<Scalar>::repeat(const Eigen::Ref<const Vector>& action, double&
     if (step.terminated) reward += setup_.fall_reward;
     episode.fell = step.terminated;
     episode.failed = step.failed;
-    if (step.terminated) return Outcome::terminated;
-    if (step.truncated) return Outcome::truncated;
+    if (step.terminated) return RecordKind::terminated;
+    if (step.truncated) return RecordKind::truncated;
   }
-  return Outcome::continued;
+  return RecordKind::continued;
 }
 
 template <typename Scalar>
@@ -129,7 +129,7 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
   }
   features = features_.template cast<Scalar>();
   if (state_.over) {
-    record.outcome = Outcome::ended;
+    record.outcome = RecordKind::ended;
     action.setZero();
     start_episode(policy, buffer);
     return;
@@ -146,7 +146,7 @@ void Explorer<Scalar>::decide(const network::Policy<Scalar>& policy,
   state_.actions.insert(state_.actions.end(), action.begin(), action.end());
 
   record.outcome = repeat(action, record.reward);
-  state_.over = record.outcome != Outcome::continued;
+  state_.over = record.outcome != RecordKind::continued;
   if (!state_.over) return;
   state_.episode.distance_m = environment_->distance_m();
   state_.episode.time_s = environment_->time_s();

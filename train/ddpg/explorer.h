@@ -87,7 +87,7 @@ class Explorer {
   void perturb(const network::Policy<Scalar>& policy, const ReplayBuffer<Scalar>& buffer);
   void reset();
   /// Repeats an action; returns the outcome and accumulates the reward.
-  Outcome repeat(const Eigen::Ref<const Vector>& action, double& reward);
+  RecordKind repeat(const Eigen::Ref<const Vector>& action, double& reward);
   double phase() const;
 
   std::unique_ptr<environment::Environment> environment_;

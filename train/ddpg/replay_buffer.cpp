@@ -91,7 +91,7 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
       const auto drawn = static_cast<std::int64_t>(uniform_index(random, choices));
       round = first + drawn / layout_.environments;
       environment = static_cast<int>(drawn % layout_.environments);
-    } while (record(round, environment).outcome == Outcome::ended);
+    } while (record(round, environment).outcome == RecordKind::ended);
     const bool mirror = options.mirror && (random() >> 63) != 0;
     batch.draws.push_back({round, environment, mirror});
     const std::int64_t last = std::min(round + options.n_step, rounds_ - 1);
@@ -114,13 +114,13 @@ void ReplayBuffer<Scalar>::sample(const SampleOptions& options, Random& random,
     for (int i = 0;; ++i) {
       const Record& step = record(last, environment);
       reward += discount * options.reward_scale * step.reward;
-      terminated = step.outcome == Outcome::terminated;
+      terminated = step.outcome == RecordKind::terminated;
       ++last;
       if (options.shaped && !options.discounted)
         reward +=
             discount * shaping_reward(phi(step), phi(record(last, environment)), 1, terminated);
       discount *= options.gamma;
-      if (step.outcome != Outcome::continued || i + 1 == options.n_step || last + 1 == rounds_)
+      if (step.outcome != RecordKind::continued || i + 1 == options.n_step || last + 1 == rounds_)
         break;
     }
     if (options.shaped && options.discounted)

@@ -10,8 +10,8 @@
 
 namespace stride::ddpg {
 
-/// The outcome of one round in one environment.
-enum class Outcome : std::uint8_t {
+/// What a record holds: the outcome of one round in one environment.
+enum class RecordKind : std::uint8_t {
   continued,   // a decision; its next state is the environment's next record
   terminated,  // a decision that ended in a fall
   truncated,   // a decision that ended at the time limit
@@ -65,7 +65,7 @@ class ReplayBuffer {
 
   /// Everything of one record.
   struct Record {
-    Outcome outcome = Outcome::continued;
+    RecordKind outcome = RecordKind::continued;
     double reward = 0;  // of the environment, summed over the repeated action
     double phase = 0;
     Pose pose;

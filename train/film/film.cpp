@@ -52,7 +52,7 @@ void draw_muscles(Canvas& canvas, const FilmModel& model, const RunnerPicture& p
     q[model.layout.coordinate[i]] = picture.state.q[i];
   const std::vector<laws::BodyFrame> frames = body_frames(picture.kinematics);
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
-    const FilmModel::Muscle& law = model.muscles[m];
+    const FilmModel::DrawnMuscle& law = model.muscles[m];
     if (law.side != side) continue;
     std::vector<laws::PathNode> nodes(law.path.points.size());
     nodes.resize(laws::place_path(law.path, q.data(), u.data(), frames, nodes.data()));
@@ -69,7 +69,7 @@ void draw_muscles(Canvas& canvas, const FilmModel& model, const RunnerPicture& p
 void draw_flesh_of_leg(Canvas& canvas, const FilmModel& model, const RunnerPicture& picture,
                        int side) {
   const auto& bodies = picture.kinematics.bodies;
-  const FilmModel::Leg& leg = model.legs[side];
+  const FilmModel::LegBodies& leg = model.legs[side];
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
   const simulation::PlanarVector hip = bodies[leg.femur].position,
                                  knee = bodies[leg.tibia].position,
@@ -84,7 +84,7 @@ void draw_flesh_of_leg(Canvas& canvas, const FilmModel& model, const RunnerPictu
 
 void draw_leg(Canvas& canvas, const FilmModel& model, const RunnerPicture& picture, int side) {
   const auto& bodies = picture.kinematics.bodies;
-  const FilmModel::Leg& leg = model.legs[side];
+  const FilmModel::LegBodies& leg = model.legs[side];
   const cv::Scalar fill = mixed(kBone, kSky, side == 1 ? kFar : 0),
                    rim = mixed(kBoneRim, kSky, side == 1 ? kFar : 0);
   const Frame &calcn = bodies[leg.calcn], &toes = bodies[leg.toes];
@@ -252,7 +252,7 @@ FilmModel film_model(const osim::Model& model) {
   film.layout = simulation::runner_layout(model);
   for (const int index : film.layout.muscle) {
     const osim::Muscle& muscle = model.muscles[index];
-    FilmModel::Muscle law;
+    FilmModel::DrawnMuscle law;
     law.path = laws::path_law(model, muscle);
     law.side = muscle.name.ends_with("_l") ? 1 : 0;
     // Strength is proportional to the cross-section.

@@ -26,17 +26,17 @@ struct FilmOptions {
 
 /// The parts of a model that are drawn.
 struct FilmModel {
-  struct Leg {
+  struct LegBodies {
     int femur = -1, tibia = -1, talus = -1, calcn = -1, toes = -1;  // indices into Model::bodies
   };
   int pelvis = -1, torso = -1, head = -1;
-  std::array<Leg, 2> legs;  // right, left
-  struct Muscle {
+  std::array<LegBodies, 2> legs;  // right, left
+  struct DrawnMuscle {
     laws::PathLaw path;
     int side = 0;           // 0 right, 1 left
     double belly_m = 0.02;  // half the width of its thickest place
   };
-  std::vector<Muscle> muscles;  // in the order of RunnerState::activation
+  std::vector<DrawnMuscle> muscles;  // in the order of RunnerState::activation
   std::vector<osim::ContactSphere> spheres;
   std::vector<double> default_coordinates;  // of Model::coordinates
   simulation::RunnerLayout layout;

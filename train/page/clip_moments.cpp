@@ -39,7 +39,7 @@ std::vector<int> frames_at(const Calibration& c, double phase) {
 }
 
 /// The frames nearest to take-off, the middle of the flight and landing.
-std::vector<int> flight_frames(const Clip& clip) {
+std::vector<int> flight_frames(const CalibratedClip& clip) {
   const CalibratedTrajectory& run = clip.calibration.run;
   std::vector<int> found;
   for (const double time_s :
@@ -53,7 +53,7 @@ std::vector<int> flight_frames(const Clip& clip) {
 }
 
 /// Frames side by side with the fitted legs, each with its moment.
-std::string strip(const Clip& clip, const std::vector<int>& shown) {
+std::string strip(const CalibratedClip& clip, const std::vector<int>& shown) {
   const Trajectory fitted = fitted_points(clip.trajectory, clip.model, clip.calibration);
   const double leg = leg_of(clip.calibration);
   std::string html = "<div class=\"strip\">";
@@ -73,7 +73,7 @@ std::string strip(const Clip& clip, const std::vector<int>& shown) {
   return html + "</div>\n";
 }
 
-std::string period_section(const Clip& clip) {
+std::string period_section(const CalibratedClip& clip) {
   const CalibratedTrajectory& run = clip.calibration.run;
   const std::vector<int> strikes = frames_at(clip.calibration, 0);
   if (strikes.size() < 2) return "";
@@ -84,7 +84,7 @@ std::string period_section(const Clip& clip) {
          strip(clip, strikes);
 }
 
-std::string speed_section(const Clip& clip) {
+std::string speed_section(const CalibratedClip& clip) {
   const Calibration& c = clip.calibration;
   std::vector<int> stance = frames_at(c, 0.05),
                    end = frames_at(c, std::max(c.gait.duty - 0.05, 0.1));
@@ -99,7 +99,7 @@ std::string speed_section(const Clip& clip) {
          strip(clip, {stance.front(), *last});
 }
 
-std::string flight_section(const Clip& clip) {
+std::string flight_section(const CalibratedClip& clip) {
   const Calibration& c = clip.calibration;
   return fmt::format(
              "<h2>The flight</h2>\n<p>Both feet are off the ground for {:.3f} s, from {:.3f} s to "
@@ -132,7 +132,7 @@ cv::Mat window(const cv::Mat& image, const Eigen::Vector2d& middle_px, double si
   return out;
 }
 
-std::vector<int> shown_moments(const Clip& clip) {
+std::vector<int> shown_moments(const CalibratedClip& clip) {
   const Calibration& c = clip.calibration;
   if (c.aperiodic) return flight_frames(clip);
   std::vector<int> all;
@@ -141,7 +141,7 @@ std::vector<int> shown_moments(const Clip& clip) {
   return all;
 }
 
-std::string moments_section(const Clip& clip) {
+std::string moments_section(const CalibratedClip& clip) {
   return clip.calibration.aperiodic ? flight_section(clip)
                                     : period_section(clip) + speed_section(clip);
 }

@@ -11,7 +11,7 @@
 namespace stride::page {
 
 /// A clip with everything that is known about it.
-struct Clip {
+struct CalibratedClip {
   std::filesystem::path video;
   Trajectory trajectory;
   SagittalModel model;
@@ -20,11 +20,11 @@ struct Clip {
 };
 
 /// Indices into Trajectory::frames of those that moments_section shows.
-std::vector<int> shown_moments(const Clip& clip);
+std::vector<int> shown_moments(const CalibratedClip& clip);
 
 /// The frames behind period and speed, or of a jump its flight, each with the fitted legs. Needs
 /// them in `frames`.
-std::string moments_section(const Clip& clip);
+std::string moments_section(const CalibratedClip& clip);
 
 /// Hip to ankle of the fitted runner, px.
 double leg_of(const Calibration& calibration);

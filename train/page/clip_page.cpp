@@ -43,14 +43,14 @@ std::vector<Outlier> outliers(const Calibration& c) {
   return marks;
 }
 
-void read_frames(const std::set<int>& wanted, Clip& clip) {
+void read_frames(const std::set<int>& wanted, CalibratedClip& clip) {
   video::Video decoder(clip.video);
   video::VideoFrame frame;
   while (clip.frames.size() < wanted.size() && decoder.read(frame))
     if (wanted.contains(frame.index)) clip.frames[frame.index] = frame.image;
 }
 
-std::string outlier_section(const Clip& clip, const std::vector<Outlier>& marks) {
+std::string outlier_section(const CalibratedClip& clip, const std::vector<Outlier>& marks) {
   const Calibration& c = clip.calibration;
   std::string html = fmt::format(
       "<h2>Outliers</h2>\n<p>{} of {} marks lie too far from the fit "
@@ -132,7 +132,7 @@ std::string unseen_section(const Trajectory& trajectory) {
 }  // namespace
 
 std::string clip_page(const fs::path& trajectory, const fs::path& video) {
-  Clip clip;
+  CalibratedClip clip;
   clip.video = video;
   clip.trajectory = load_trajectory(trajectory);
   clip.model = sagittal_model(osim::load_osim(osim::default_model_file()));
@@ -179,7 +179,7 @@ std::string clip_page(const fs::path& trajectory, const fs::path& video) {
   }
   body += unseen_section(clip.trajectory);
   body += folded("The report in words", text);
-  return document(fmt::format("Clip {}", clip.trajectory.video), body);
+  return document(fmt::format("CalibratedClip {}", clip.trajectory.video), body);
 }
 
 }  // namespace stride::page

@@ -75,7 +75,7 @@ void visit_counters(training::Progress& progress, const Visit& visit) {
   visit("next_evaluation", progress.next_evaluation);
 }
 template <typename Visit>
-void visit_sums(training::Progress& progress, Sums& sums, const Visit& visit) {
+void visit_sums(training::Progress& progress, BatchSums& sums, const Visit& visit) {
   visit("best_distance_m", progress.best_distance_m);
   visit("sums.episodes", progress.sums.episodes);
   visit("sums.distance_m", progress.sums.distance_m);
@@ -94,7 +94,7 @@ network::Tensors load_tensors_of_ppo(const fs::path& file) {
 }
 
 /// Networks, what steers them, and the normaliser.
-void get_learner(const network::Tensors& tensors, Training& training) {
+void get_learner(const network::Tensors& tensors, PpoTraining& training) {
   Learner& learner = training.learner;
   get(tensors, "actor", learner.actor(), learner.actor_adam());
   get(tensors, "critic", learner.critic().net, learner.critic().adam);
@@ -113,11 +113,11 @@ void get_learner(const network::Tensors& tensors, Training& training) {
 
 }  // namespace
 
-void save_checkpoint(const Training& training, const fs::path& run) {
+void save_checkpoint(const PpoTraining& training, const fs::path& run) {
   network::Tensors tensors;
   tensors.metadata = {{"format", "stride ppo checkpoint"}, {"version", "1"}};
   training::Progress progress = training.progress;
-  Sums sums = training.sums;
+  BatchSums sums = training.sums;
   visit_counters(progress, [&](const char* name, std::int64_t value) { tensors.put(name, value); });
   visit_sums(progress, sums,
              [&](const char* name, double value) { tensors.put(name, Eigen::VectorXd{{value}}); });
@@ -136,7 +136,7 @@ void save_checkpoint(const Training& training, const fs::path& run) {
   save(tensors, training::checkpoint_file(run));
 }
 
-void load_checkpoint(Training& training, const fs::path& run) {
+void load_checkpoint(PpoTraining& training, const fs::path& run) {
   const network::Tensors tensors = load_tensors_of_ppo(training::checkpoint_file(run));
   visit_counters(training.progress,
                  [&](const char* name, std::int64_t& value) { value = tensors.integer(name); });
@@ -148,7 +148,7 @@ void load_checkpoint(Training& training, const fs::path& run) {
     training.slots[i].restore(get(tensors, fmt::format("slot{}", i), training.action_names.size()));
 }
 
-void begin_with(Training& training, const fs::path& checkpoint) {
+void begin_with(PpoTraining& training, const fs::path& checkpoint) {
   get_learner(load_tensors_of_ppo(checkpoint), training);
 }
 

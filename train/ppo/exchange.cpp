@@ -43,9 +43,9 @@ void get(Message& message, int slot, RolloutBatch& batch) {
     if (t == batch.steps) break;
     get(message, batch.actions.col(column)), get(message, batch.logits.col(column));
     message.get(&batch.rewards[column], 1);
-    End& end = batch.ends[static_cast<std::size_t>(column)];
+    EpisodeEnd& end = batch.ends[static_cast<std::size_t>(column)];
     message.get(&end, 1);
-    if (end != End::truncated) continue;
+    if (end != EpisodeEnd::truncated) continue;
     Matrix& after = batch.after[static_cast<std::size_t>(column)];
     after.resize(batch.states.rows(), 1);
     get(message, after.col(0));

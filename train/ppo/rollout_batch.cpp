@@ -10,13 +10,13 @@ void estimate_advantages(double gamma, double lambda, RolloutBatch& batch) {
   Eigen::Index truncated = batch.truncated_values.size();
   Vector later = Vector::Zero(n);  // A of the next decision
   for (int i = decisions - 1; i >= 0; --i) {
-    const End end = batch.ends[static_cast<std::size_t>(i)];
+    const EpisodeEnd end = batch.ends[static_cast<std::size_t>(i)];
     float next = batch.values[i + n];
-    if (end == End::terminated) next = 0;
-    if (end == End::truncated) next = batch.truncated_values[--truncated];
+    if (end == EpisodeEnd::terminated) next = 0;
+    if (end == EpisodeEnd::truncated) next = batch.truncated_values[--truncated];
     const float delta = batch.rewards[i] + g * next - batch.values[i];
     float& advantage = later[i % n];
-    advantage = delta + (end == End::none ? decay * advantage : 0.0f);
+    advantage = delta + (end == EpisodeEnd::none ? decay * advantage : 0.0f);
     batch.advantages[i] = advantage;
     batch.returns[i] = advantage + batch.values[i];
   }

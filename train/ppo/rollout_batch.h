@@ -8,7 +8,7 @@
 namespace stride::ppo {
 
 /// How a decision left its episode. A truncated one goes on unseen: its value is bootstrapped.
-enum class End : std::uint8_t { none, terminated, truncated };
+enum class EpisodeEnd : std::uint8_t { none, terminated, truncated };
 
 /// The decisions between two updates: column step · environments + slot.
 struct RolloutBatch {
@@ -18,7 +18,7 @@ struct RolloutBatch {
   Vector log_probabilities;
   Vector rewards;  // shaped, with the bonus of not falling
   Vector values;   // V(s) of every column and of the state after the last
-  std::vector<End> ends;
+  std::vector<EpisodeEnd> ends;
   Eigen::MatrixXd observed;   // features before they are normalised
   std::vector<Matrix> after;  // s′, normalised, of each decision that was truncated; else empty
   Matrix truncated_states;    // s′ of the truncated decisions, one after the other

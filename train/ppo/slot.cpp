@@ -42,23 +42,23 @@ const Eigen::VectorXd& Slot::features() {
   return features_;
 }
 
-Slot::Outcome Slot::repeat(double alive_per_s) {
+Slot::DecisionResult Slot::repeat(double alive_per_s) {
   const double step_s = environment_->spec().step_s, phi = potential();
   network::EpisodeSummary& episode = state_.episode;
-  Outcome outcome;
+  DecisionResult outcome;
   double reward = 0;
-  for (int i = 0; i < setup_.action_repeat && outcome.end == End::none; ++i) {
+  for (int i = 0; i < setup_.action_repeat && outcome.end == EpisodeEnd::none; ++i) {
     const environment::Step& step = environment_->step(applied_);
     state_.simulated_s += step_s;
     episode.reward += step.reward;
     reward += step.reward + alive_per_s * step_s;
-    if (step.truncated) outcome.end = End::truncated;
-    if (step.terminated) outcome.end = End::terminated;
+    if (step.truncated) outcome.end = EpisodeEnd::truncated;
+    if (step.terminated) outcome.end = EpisodeEnd::terminated;
     episode.failed = step.failed;
-    if (outcome.end != End::none || i + 1 == setup_.action_repeat)
+    if (outcome.end != EpisodeEnd::none || i + 1 == setup_.action_repeat)
       observer_.follow(step.observation, phase(), features_);
   }
-  episode.fell = outcome.end == End::terminated;
+  episode.fell = outcome.end == EpisodeEnd::terminated;
   if (episode.fell) reward += setup_.fall_reward;
   if (setup_.potential != nullptr)
     reward += shaping_reward(phi, potential(), setup_.gamma, episode.fell);
@@ -66,8 +66,8 @@ Slot::Outcome Slot::repeat(double alive_per_s) {
   return outcome;
 }
 
-Slot::Outcome Slot::decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
-                           Eigen::Ref<Vector> action, const environment::Mirror* mirror) {
+Slot::DecisionResult Slot::decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
+                                  Eigen::Ref<Vector> action, const environment::Mirror* mirror) {
   for (Eigen::Index i = 0; i < action.size(); ++i) {
     const double p = 1 / (1 + std::exp(-static_cast<double>(logits[i])));
     action[i] = uniform(state_.random) < p ? 1.0f : 0.0f;
@@ -79,8 +79,8 @@ Slot::Outcome Slot::decide(const Eigen::Ref<const Vector>& logits, double alive_
     applied_ = drawn;
   for (const double excitation : applied_)
     state_.actions.push_back(static_cast<std::uint8_t>(excitation));
-  const Outcome outcome = repeat(alive_per_s);
-  if (outcome.end == End::none) return outcome;
+  const DecisionResult outcome = repeat(alive_per_s);
+  if (outcome.end == EpisodeEnd::none) return outcome;
   state_.episode.distance_m = environment_->distance_m();
   state_.episode.time_s = environment_->time_s();
   finished_.push_back(state_.episode);

@@ -40,15 +40,15 @@ class Slot {
   /// Features of the current state; starts an episode where none is running.
   const Eigen::VectorXd& features();
 
-  struct Outcome {
+  struct DecisionResult {
     float reward = 0;
-    End end = End::none;
+    EpisodeEnd end = EpisodeEnd::none;
   };
   /// Draws an action from the logits into `action`, and repeats it, or with `mirror` its mirror
   /// image. `alive_per_s`: reward of each simulated second. After the end of an episode features()
   /// is the end's until begin_next().
-  Outcome decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
-                 Eigen::Ref<Vector> action, const environment::Mirror* mirror = nullptr);
+  DecisionResult decide(const Eigen::Ref<const Vector>& logits, double alive_per_s,
+                        Eigen::Ref<Vector> action, const environment::Mirror* mirror = nullptr);
   void begin_next();
 
   std::vector<network::EpisodeSummary> take_finished();
@@ -67,7 +67,7 @@ class Slot {
 
  private:
   void reset();
-  Outcome repeat(double alive_per_s);
+  DecisionResult repeat(double alive_per_s);
   double phase() const;
   double potential() const;
 

@@ -31,24 +31,24 @@ Table new_ppo_curve(const std::string& task) {
   return table;
 }
 
-std::vector<double> row_of(const training::CurveRow& shared, const Training& training) {
+std::vector<double> row_of(const training::CurveRow& shared, const PpoTraining& training) {
   std::vector<double> row = shared.values();
   row.resize(kSharedColumns);
-  const Sums& sums = training.sums;
+  const BatchSums& sums = training.sums;
   for (const double sum : {sums.kl, sums.entropy, sums.value_loss, sums.explained_variance})
     row.push_back(sums.batches > 0 ? sum / sums.batches : NAN);
   row.push_back(training.learner.rate());
   return row;
 }
 
-double simulated_s(const Training& training) {
+double simulated_s(const PpoTraining& training) {
   double total = 0;
   for (const Slot& slot : training.slots) total += slot.state().simulated_s;
   return total;
 }
 
 /// What is learnt from a batch of decisions. Empty, or why learning stopped.
-std::string learn(const TrainOptions& options, Training& training, training::ThreadPool& threads,
+std::string learn(const TrainOptions& options, PpoTraining& training, training::ThreadPool& threads,
                   RolloutBatch& batch) {
   training.learner.assess(threads, batch);
   const auto decisions = static_cast<double>(training.progress.decisions);
@@ -74,7 +74,7 @@ training::TrainSummary train_with(const TrainOptions& options, const Potential* 
                                   const training::EnvironmentFactory& make_environment,
                                   const std::atomic<bool>& stop, std::FILE* messages,
                                   parallel::Ranks& ranks) {
-  Training training = start_training(options, potential, make_environment);
+  PpoTraining training = start_training(options, potential, make_environment);
   if (!ranks.first()) ranks.wait_for_all();  // until the first has tidied up the folder
   if (fs::exists(training::checkpoint_file(run)))
     load_checkpoint(training, run);

@@ -14,8 +14,8 @@ enum Stream : std::uint64_t { kLearner = 1, kWeights = 2, kFirstSlot = 1000 };
 
 }  // namespace
 
-Training start_training(const training::TrainOptions& options, const Potential* potential,
-                        const training::EnvironmentFactory& make_environment) {
+PpoTraining start_training(const training::TrainOptions& options, const Potential* potential,
+                           const training::EnvironmentFactory& make_environment) {
   const std::unique_ptr<environment::Environment> example = make_environment(-1);
   const environment::EnvironmentSpec& spec = example->spec();
   const environment::Observer observer = training::make_observer(options, potential, spec);
@@ -27,16 +27,16 @@ Training start_training(const training::TrainOptions& options, const Potential* 
   }
   const auto seed = static_cast<std::uint64_t>(options.run.seed);
   Random weights(stream_seed(seed, kWeights));
-  Training training{.feature_names = observer.names(),
-                    .action_names = spec.action_names,
-                    .random = Random(stream_seed(seed, kLearner)),
-                    .learner = Learner(options.ppo, static_cast<int>(observer.names().size()),
-                                       static_cast<int>(spec.action_names.size()), weights),
-                    .symmetry = symmetry,
-                    .normaliser = network::Normaliser(normalised),
-                    .slots = {},
-                    .progress = {},
-                    .sums = {}};
+  PpoTraining training{.feature_names = observer.names(),
+                       .action_names = spec.action_names,
+                       .random = Random(stream_seed(seed, kLearner)),
+                       .learner = Learner(options.ppo, static_cast<int>(observer.names().size()),
+                                          static_cast<int>(spec.action_names.size()), weights),
+                       .symmetry = symmetry,
+                       .normaliser = network::Normaliser(normalised),
+                       .slots = {},
+                       .progress = {},
+                       .sums = {}};
   for (int slot = 0; slot < options.run.environments; ++slot)
     training.slots.emplace_back(
         make_environment(slot), observer,
@@ -48,7 +48,7 @@ Training start_training(const training::TrainOptions& options, const Potential* 
   return training;
 }
 
-network::Policy<float> policy_of(const Training& training) {
+network::Policy<float> policy_of(const PpoTraining& training) {
   network::MlpShape shape = training.learner.actor().shape();
   shape.output = network::Activation::sigmoid;
   network::Policy<float> policy{.actor = network::Mlp<float>(shape),
@@ -58,7 +58,7 @@ network::Policy<float> policy_of(const Training& training) {
   return policy;
 }
 
-void collect(const training::TrainOptions& options, Training& training,
+void collect(const training::TrainOptions& options, PpoTraining& training,
              training::ThreadPool& threads, parallel::Ranks& ranks, RolloutBatch& batch) {
   const int n = options.run.environments, steps = options.ppo.horizon;
   const auto features = static_cast<Eigen::Index>(training.feature_names.size());
@@ -69,7 +69,7 @@ void collect(const training::TrainOptions& options, Training& training,
   batch.actions.resize(actions, steps * n);
   batch.logits.resize(actions, steps * n);
   batch.rewards.resize(steps * n);
-  batch.ends.assign(static_cast<std::size_t>(steps * n), End::none);
+  batch.ends.assign(static_cast<std::size_t>(steps * n), EpisodeEnd::none);
   batch.observed.resize(features, (steps + 1) * n);
   batch.after.assign(static_cast<std::size_t>(steps * n), Matrix());
 
@@ -115,13 +115,13 @@ void collect(const training::TrainOptions& options, Training& training,
                         mirrors[static_cast<std::size_t>(i)]);
         batch.rewards[column] = reward;
         batch.ends[static_cast<std::size_t>(column)] = end;
-        if (end == End::truncated) {
+        if (end == EpisodeEnd::truncated) {
           Matrix& state = batch.after[static_cast<std::size_t>(column)];
           view(slot.features());
           state = seen.cast<float>();
           training.normaliser.apply(state);
         }
-        if (end != End::none) slot.begin_next();
+        if (end != EpisodeEnd::none) slot.begin_next();
       }
     }
     see(steps * n + begin);

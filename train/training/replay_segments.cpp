@@ -92,7 +92,7 @@ void get_records(const network::Tensors& tensors, std::vector<Record<Scalar>>& r
   Eigen::MatrixXd poses(count, kPoseNumbers);
   tensors.get("pose", poses);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    records[i].outcome = static_cast<ddpg::Outcome>(outcomes[i]);
+    records[i].outcome = static_cast<ddpg::RecordKind>(outcomes[i]);
     for (std::size_t k = 0; k < records[i].pose.m.size(); ++k)
       records[i].pose.m[k] = poses(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
   }
@@ -118,7 +118,7 @@ void get_records_version_1(const network::Tensors& tensors, std::vector<Record<S
     double numbers[kNumbers];
     std::memcpy(numbers, at + 8, sizeof numbers);
     Record<Scalar>& record = records[i];
-    record.outcome = static_cast<ddpg::Outcome>(*at);
+    record.outcome = static_cast<ddpg::RecordKind>(*at);
     record.reward = numbers[0];
     record.phase = numbers[1];
     std::copy_n(numbers + 2, record.pose.m.size(), record.pose.m.begin());
@@ -172,7 +172,7 @@ void load_segment(ddpg::ReplayBuffer<Scalar>& buffer, const Segment& segment) {
       buffer.record(round, e) = *record;
       require(buffer.features(round, e).allFinite() && buffer.action(round, e).allFinite() &&
                   std::isfinite(record->reward + record->phi + record->phi_mirrored) &&
-                  record->outcome <= ddpg::Outcome::ended,
+                  record->outcome <= ddpg::RecordKind::ended,
               "{}: the record of round {}, environment {} holds what is no number: damaged",
               tensors.file, round, e);
       features += feature_bytes;

@@ -92,7 +92,7 @@ void meet(const TrainOptions& options, std::int64_t updates, Training<Scalar>& t
   training.buffer.publish(options.run.round);
   for (std::int64_t round = begin; round < training.buffer.rounds(); ++round)
     for (int slot = 0; slot < options.run.environments; ++slot) {
-      if (training.buffer.record(round, slot).outcome == ddpg::Outcome::ended) continue;
+      if (training.buffer.record(round, slot).outcome == ddpg::RecordKind::ended) continue;
       ++progress.decisions;
       training.normaliser.add(training.buffer.features(round, slot).template cast<double>());
     }

@@ -25,8 +25,8 @@ cv::Mat frame_picture(int frame) {
   return image;
 }
 
-Body body_of(const Actor& actor, int frame) {
-  Body body;
+PoseLandmarks body_of(const Actor& actor, int frame) {
+  PoseLandmarks body;
   body.presence = 0.9;
   const Vector2d hips = actor.hips(frame);
   for (Landmark& landmark : body.landmarks) landmark.p_px = hips;
@@ -40,22 +40,23 @@ Body body_of(const Actor& actor, int frame) {
 Viewer viewer_of(const std::vector<Actor>& actors) {
   const auto near = [actors](const cv::Mat& image, const Vector2d& at, double reach_px) {
     const int frame = image.at<cv::Vec3b>(0, 0)[0];
-    std::vector<Body> bodies;
+    std::vector<PoseLandmarks> bodies;
     for (const Actor& actor : actors)
       if (actor.visible(frame) && (actor.hips(frame) - at).norm() < reach_px)
         bodies.push_back(body_of(actor, frame));
-    std::ranges::sort(bodies, {}, [&](const Body& b) { return (b.next.centre_px - at).norm(); });
+    std::ranges::sort(bodies, {},
+                      [&](const PoseLandmarks& b) { return (b.next.centre_px - at).norm(); });
     return bodies;
   };
   return {[near](const cv::Mat& image, const Crop& region) {
             std::vector<Candidate> found;
-            for (const Body& b : near(image, region.centre_px, region.size_px))
+            for (const PoseLandmarks& b : near(image, region.centre_px, region.size_px))
               found.push_back({b.next, 0.8});
             return found;
           },
           [near](const cv::Mat& image, const Crop& crop) {
-            const std::vector<Body> bodies = near(image, crop.centre_px, crop.size_px / 2);
-            return bodies.empty() ? Body{} : bodies.front();
+            const std::vector<PoseLandmarks> bodies = near(image, crop.centre_px, crop.size_px / 2);
+            return bodies.empty() ? PoseLandmarks{} : bodies.front();
           }};
 }
 
@@ -118,7 +119,9 @@ TEST(FollowedPerson, IsNobodyInAnEmptyPicture) { EXPECT_TRUE(followed({}, 20).em
 
 TEST(FollowedPerson, ThrowsOnWhatTheNetworksThrow) {
   Viewer good = viewer_of({walking(50, 4, 200)}), bad = good;
-  bad.look = [](const cv::Mat&, const Crop&) -> Body { throw std::runtime_error("broken"); };
+  bad.look = [](const cv::Mat&, const Crop&) -> PoseLandmarks {
+    throw std::runtime_error("broken");
+  };
   EXPECT_THROW(follow_people({50, frame_picture}, good, bad), std::runtime_error);
 }
 

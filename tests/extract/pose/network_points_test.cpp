@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-Body body_at(const Vector2d& p_px, double peak) {
-  Body body;
+PoseLandmarks body_at(const Vector2d& p_px, double peak) {
+  PoseLandmarks body;
   for (Landmark& landmark : body.landmarks) {
     landmark.p_px = p_px;
     landmark.peak = peak;
@@ -28,7 +28,7 @@ Body body_at(const Vector2d& p_px, double peak) {
 }
 
 TEST(NetworkPoints, AreAbsentOutsideThePicture) {
-  Body body = body_at({100, 50}, 0.9);
+  PoseLandmarks body = body_at({100, 50}, 0.9);
   body.landmarks[27].p_px = {100, 121};  // left ankle
   body.landmarks[23].p_px = {-90, 50};   // left hip; the middle of the hips is inside
   const imports::ImportedFrame frame = points_of(body, 7, {200, 120});
@@ -40,7 +40,7 @@ TEST(NetworkPoints, AreAbsentOutsideThePicture) {
 }
 
 TEST(NetworkPoints, AreOfEveryPartButTheHips) {
-  Body body = body_at({100, 50}, 0.9);
+  PoseLandmarks body = body_at({100, 50}, 0.9);
   for (std::size_t k = 0; k < body.landmarks.size(); ++k)
     body.landmarks[k].p_px.y() = static_cast<double>(k);
   const imports::ImportedFrame frame = points_of(body, 0, {200, 120});
@@ -59,7 +59,7 @@ TEST(NetworkPoints, AreOfEveryPartButTheHips) {
 TEST(NetworkPoints, HaveNoLegsWhereOneMayBeBeyondTheSideOfThePicture) {
   for (const auto& [x_px, seen] :
        {std::pair(5.0, false), std::pair(100.0, true), std::pair(190.0, false)}) {
-    Body body = body_at({x_px, 50}, 0.9);
+    PoseLandmarks body = body_at({x_px, 50}, 0.9);
     body.next.size_px = 100;
     const imports::ImportedFrame frame = points_of(body, 0, {200, 120});
     EXPECT_TRUE(frame[BodyPart::pelvis].present());

@@ -17,17 +17,17 @@ const Vector2d kFrom(60, 80), kStep(1.75, -0.5);  // px, px a frame
 Vector2d place(int frame) { return kFrom + frame * kStep; }
 
 /// A blurred random texture that moves by kStep a frame.
-std::vector<video::Crop> moving_texture(int frames) {
+std::vector<video::RunnerCrop> moving_texture(int frames) {
   Random random(3);
   cv::Mat texture(160, 200, CV_8U);
   for (auto it = texture.begin<unsigned char>(); it != texture.end<unsigned char>(); ++it)
     *it = static_cast<unsigned char>(255 * uniform(random));
   cv::GaussianBlur(texture, texture, {9, 9}, 2);
   cv::normalize(texture, texture, 0, 255, cv::NORM_MINMAX);
-  std::vector<video::Crop> crops;
+  std::vector<video::RunnerCrop> crops;
   for (int f = 0; f < frames; ++f) {
     const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, f * kStep.x(), 0, 1, f * kStep.y());
-    video::Crop& crop = crops.emplace_back();
+    video::RunnerCrop& crop = crops.emplace_back();
     cv::warpAffine(texture, crop.gray, shift, texture.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
   }
   return crops;
@@ -73,8 +73,8 @@ TEST(OpticalFlow, MissesAClickThatIsBesideTheTexturesPath) {
 }
 
 TEST(OpticalFlow, TakesThePriorsDisplacementWhereThePictureSaysNothing) {
-  std::vector<video::Crop> crops = moving_texture(5);
-  for (video::Crop& crop : crops) crop.gray.setTo(90);
+  std::vector<video::RunnerCrop> crops = moving_texture(5);
+  for (video::RunnerCrop& crop : crops) crop.gray.setTo(90);
   const ExpectedPlace expected = [](BodyPart, int frame) { return place(frame); };
   const auto found = follow(ends(4), crops, expected);
   ASSERT_EQ(found.size(), 1U);

@@ -92,17 +92,17 @@ TEST(Explorer, ShapingTelescopesOverWholeRecordedEpisodes) {
       std::int64_t start = 0;
       double sum = 0, power = 1;
       for (std::int64_t round = 0; round + 1 < buffer.rounds(); ++round) {
-        const ddpg::Outcome outcome = buffer.record(round, 0).outcome;
-        if (outcome == ddpg::Outcome::ended) {
+        const ddpg::RecordKind outcome = buffer.record(round, 0).outcome;
+        if (outcome == ddpg::RecordKind::ended) {
           start = round + 1;
           sum = 0;
           power = 1;
           continue;
         }
-        const bool fell = outcome == ddpg::Outcome::terminated;
+        const bool fell = outcome == ddpg::RecordKind::terminated;
         sum += power * shaping_reward(phi(round), phi(round + 1), gamma, fell);
         power *= gamma;
-        if (outcome == ddpg::Outcome::continued) continue;
+        if (outcome == ddpg::RecordKind::continued) continue;
         EXPECT_NEAR(sum, (fell ? 0 : power * phi(round + 1)) - phi(start), 1e-10);
         (fell ? falls : time_limits) += 1;
       }
@@ -133,14 +133,14 @@ TEST(Explorer, RecordsStatesInTheirOrderWithTheLastOfAnEpisode) {
   for (std::int64_t round = 0; round + 1 < buffer.rounds(); ++round) {
     const auto &now = buffer.record(round, 0), &next = buffer.record(round + 1, 0);
     const bool over =
-        now.outcome == ddpg::Outcome::terminated || now.outcome == ddpg::Outcome::truncated;
-    ASSERT_EQ(next.outcome == ddpg::Outcome::ended, over);
+        now.outcome == ddpg::RecordKind::terminated || now.outcome == ddpg::RecordKind::truncated;
+    ASSERT_EQ(next.outcome == ddpg::RecordKind::ended, over);
     ended += over;
-    if (now.outcome == ddpg::Outcome::continued) {
+    if (now.outcome == ddpg::RecordKind::continued) {
       const double advance = next.phase - now.phase;
       EXPECT_NEAR(advance - std::floor(advance), 0.15 / 0.37, 1e-9);
     }
-    if (now.outcome == ddpg::Outcome::ended) {
+    if (now.outcome == ddpg::RecordKind::ended) {
       EXPECT_EQ(next.phase, 0);
     }
     // The pose is of the state whose features stand beside it.

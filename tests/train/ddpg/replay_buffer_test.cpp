@@ -34,12 +34,12 @@ ddpg::ReplayBuffer<double> filled(std::int64_t rounds, std::int64_t capacity, Ra
       record.phi = 10 * uniform(random);
       record.phi_mirrored = 10 * uniform(random);
       const double kind = uniform(random);
-      record.outcome = over[e]      ? ddpg::Outcome::ended
-                       : kind < 0.1 ? ddpg::Outcome::terminated
-                       : kind < 0.2 ? ddpg::Outcome::truncated
-                                    : ddpg::Outcome::continued;
-      over[e] =
-          record.outcome == ddpg::Outcome::terminated || record.outcome == ddpg::Outcome::truncated;
+      record.outcome = over[e]      ? ddpg::RecordKind::ended
+                       : kind < 0.1 ? ddpg::RecordKind::terminated
+                       : kind < 0.2 ? ddpg::RecordKind::truncated
+                                    : ddpg::RecordKind::continued;
+      over[e] = record.outcome == ddpg::RecordKind::terminated ||
+                record.outcome == ddpg::RecordKind::truncated;
       buffer.features(round, e) << static_cast<double>(round * kEnvironments + e), 1, 2;
       buffer.action(round, e) << 0.25, 0.75;
     }
@@ -64,7 +64,7 @@ Expected expected(const ddpg::ReplayBuffer<double>& buffer, std::int64_t round, 
   double gamma_power = 1;
   for (int i = 0; i < options.n_step; ++i) {
     const auto& record = buffer.record(round, e);
-    const bool fell = record.outcome == ddpg::Outcome::terminated;
+    const bool fell = record.outcome == ddpg::RecordKind::terminated;
     x.reward += gamma_power * options.reward_scale * record.reward;
     if (options.shaped)
       x.reward += gamma_power * shaping_reward(phi(round), phi(round + 1),
@@ -72,7 +72,7 @@ Expected expected(const ddpg::ReplayBuffer<double>& buffer, std::int64_t round, 
     gamma_power *= options.gamma;
     ++round;
     x.discount = fell ? 0 : gamma_power;
-    if (record.outcome != ddpg::Outcome::continued || round + 1 == buffer.rounds()) break;
+    if (record.outcome != ddpg::RecordKind::continued || round + 1 == buffer.rounds()) break;
   }
   x.last = round;
   return x;
@@ -116,7 +116,7 @@ TEST(ReplayBuffer, SamplesUniformly) {
   std::map<std::int64_t, int> counts;
   for (std::int64_t round = buffer.first_round(); round + 1 < buffer.rounds(); ++round)
     for (int e = 0; e < kEnvironments; ++e)
-      if (buffer.record(round, e).outcome != ddpg::Outcome::ended)
+      if (buffer.record(round, e).outcome != ddpg::RecordKind::ended)
         counts[round * kEnvironments + e] = 0;
   ddpg::Batch<double> batch;
   constexpr int kDraws = 100'000;

@@ -24,7 +24,7 @@ RolloutBatch bandit(const Learner& learner, Random& random) {
   batch.logits = learner.actor().forward(batch.states.leftCols(n), work);
   batch.actions.resize(2, n);
   batch.rewards.resize(n);
-  batch.ends.assign(n, End::terminated);
+  batch.ends.assign(n, EpisodeEnd::terminated);
   for (int i = 0; i < n; ++i) {
     batch.rewards[i] = 0;
     for (int k = 0; k < 2; ++k) {

@@ -22,9 +22,9 @@ RolloutBatch some_batch() {
   };
   batch.rewards = draw(60);
   batch.values = draw(62);
-  batch.ends.assign(60, End::none);
-  batch.ends[2 * 7] = batch.ends[2 * 20 + 1] = End::terminated;
-  batch.ends[2 * 12] = batch.ends[2 * 12 + 1] = batch.ends[2 * 25 + 1] = End::truncated;
+  batch.ends.assign(60, EpisodeEnd::none);
+  batch.ends[2 * 7] = batch.ends[2 * 20 + 1] = EpisodeEnd::terminated;
+  batch.ends[2 * 12] = batch.ends[2 * 12 + 1] = batch.ends[2 * 25 + 1] = EpisodeEnd::truncated;
   batch.truncated_values = draw(3);
   return batch;
 }
@@ -37,19 +37,19 @@ TEST(Advantages, AreTheSumOfDiscountedTemporalDifferencesOfTheirEpisode) {
   const auto truncated = [&](int column) {
     int before = 0;
     for (int i = 0; i < column; ++i)
-      before += batch.ends[static_cast<std::size_t>(i)] == End::truncated;
+      before += batch.ends[static_cast<std::size_t>(i)] == EpisodeEnd::truncated;
     return batch.truncated_values[before];
   };
   for (int start = 0; start < 60; ++start) {
     double sum = 0, factor = 1;
     for (int i = start; i < 60; i += 2) {
-      const End end = batch.ends[static_cast<std::size_t>(i)];
-      const double next = end == End::terminated  ? 0
-                          : end == End::truncated ? truncated(i)
-                                                  : batch.values[i + 2];
+      const EpisodeEnd end = batch.ends[static_cast<std::size_t>(i)];
+      const double next = end == EpisodeEnd::terminated  ? 0
+                          : end == EpisodeEnd::truncated ? truncated(i)
+                                                         : batch.values[i + 2];
       sum += factor * (batch.rewards[i] + gamma * next - batch.values[i]);
       factor *= gamma * lambda;
-      if (end != End::none) break;
+      if (end != EpisodeEnd::none) break;
     }
     EXPECT_NEAR(batch.advantages[start], sum, 1e-5) << start;
     EXPECT_NEAR(batch.returns[start], sum + batch.values[start], 1e-5) << start;
@@ -73,10 +73,10 @@ TEST(Advantages, AreTheSameUnderAPotentialThatTheValuesKnow) {
   for (float& x : phi) x = static_cast<float>(normal(random));
   for (float& x : phi_truncated) x = static_cast<float>(normal(random));
   for (int i = 0, k = 0; i < 60; ++i) {
-    const End end = shaped.ends[static_cast<std::size_t>(i)];
-    const float next = end == End::terminated  ? 0
-                       : end == End::truncated ? phi_truncated[k++]
-                                               : phi[i + 2];
+    const EpisodeEnd end = shaped.ends[static_cast<std::size_t>(i)];
+    const float next = end == EpisodeEnd::terminated  ? 0
+                       : end == EpisodeEnd::truncated ? phi_truncated[k++]
+                                                      : phi[i + 2];
     shaped.rewards[i] += static_cast<float>(gamma) * next - phi[i];
   }
   shaped.values -= phi;

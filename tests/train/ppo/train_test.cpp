@@ -138,8 +138,8 @@ TEST(PpoSlot, ShapingTelescopesOverAnEpisode) {
     const double first = potential(twin.pose(), 0);
     const Vector logits = Vector::Constant(1, episode % 2 == 0 ? 0.0f : 5.0f);
     double sum = 0, factor = 1;
-    End end = End::none;
-    while (end == End::none) {
+    EpisodeEnd end = EpisodeEnd::none;
+    while (end == EpisodeEnd::none) {
       const auto with = shaped.decide(logits, 0, action);
       const auto without = plain.decide(logits, 0, action);
       end = with.end;
@@ -149,11 +149,11 @@ TEST(PpoSlot, ShapingTelescopesOverAnEpisode) {
         if (const environment::Step& step = twin.step(action.cast<double>()); step.terminated)
           break;
     }
-    const double last = end == End::terminated
+    const double last = end == EpisodeEnd::terminated
                             ? 0
                             : factor * potential(twin.pose(), potential.phase_at(twin.time_s()));
     EXPECT_NEAR(sum, last - first, 1e-5);
-    ++(end == End::terminated ? falls : limits);
+    ++(end == EpisodeEnd::terminated ? falls : limits);
     plain.begin_next(), shaped.begin_next();
   }
   EXPECT_GT(falls, 3);

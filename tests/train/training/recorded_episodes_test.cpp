@@ -73,13 +73,14 @@ TEST(RecordedEpisodes, ShapingTelescopesUnderRepeatMirrorFallsAndTimeLimits) {
   const ddpg::ReplayBuffer<double>& buffer = training.buffer;
   const Shaping shaping = sampled_shaping(buffer, options);
 
-  std::map<ddpg::Outcome, int> ends;
+  std::map<ddpg::RecordKind, int> ends;
   for (int e = 0; e < options.run.environments; ++e) {
     std::int64_t start = 0;
     for (std::int64_t round = 0; round + 1 < buffer.rounds(); ++round) {
-      const ddpg::Outcome outcome = buffer.record(round, e).outcome;
-      if (outcome == ddpg::Outcome::ended) start = round + 1;
-      if (outcome != ddpg::Outcome::terminated && outcome != ddpg::Outcome::truncated) continue;
+      const ddpg::RecordKind outcome = buffer.record(round, e).outcome;
+      if (outcome == ddpg::RecordKind::ended) start = round + 1;
+      if (outcome != ddpg::RecordKind::terminated && outcome != ddpg::RecordKind::truncated)
+        continue;
       ++ends[outcome];
       const auto phi = [&](std::int64_t of, bool mirrored) {
         const auto& record = buffer.record(of, e);
@@ -93,13 +94,13 @@ TEST(RecordedEpisodes, ShapingTelescopesUnderRepeatMirrorFallsAndTimeLimits) {
         double sum = 0, gamma_power = 1;
         for (std::int64_t t = start; t <= round; ++t, gamma_power *= options.agent.gamma)
           sum += gamma_power * shaping.at({t, e, mirrored});
-        const double last = outcome == ddpg::Outcome::terminated ? 0 : phi(round + 1, mirrored);
+        const double last = outcome == ddpg::RecordKind::terminated ? 0 : phi(round + 1, mirrored);
         EXPECT_NEAR(sum, gamma_power * last - phi(start, mirrored), 1e-10);
       }
     }
   }
-  EXPECT_GT(ends[ddpg::Outcome::terminated], 3);
-  EXPECT_GT(ends[ddpg::Outcome::truncated], 3);
+  EXPECT_GT(ends[ddpg::RecordKind::terminated], 3);
+  EXPECT_GT(ends[ddpg::RecordKind::truncated], 3);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace stride::simulation {
 
 /// The runner's coordinates in the order of RunnerState::q. Angles in rad; x is the way of running,
 /// y up, m.
-enum Coordinate : int {
+enum CoordinateIndex : int {
   kPelvisTilt,
   kPelvisX,
   kPelvisY,
