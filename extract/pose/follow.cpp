@@ -19,12 +19,12 @@ constexpr double kPresent = 0.5;  // presence of a body that was found
 constexpr double kFarthestJump = 0.15, kFirstJump = 0.3;
 constexpr double kMostLenience = 2;  // of that, after frames on which nobody was seen
 constexpr double kFarthestGrowth = 1.5;
-constexpr double kSamePerson = 0.25;             // crops between two sightings of one person
+constexpr double kSamePerson = 0.25;             // crops between two detections of one person
 constexpr double kApart = 0.5, kTogether = 0.3;  // feet, in leg lengths
 constexpr std::size_t kHipL = 23, kHipR = 24, kAnkleL = 27, kAnkleR = 28;
 
 /// Somebody on a sampled frame.
-struct Sighting {
+struct Detection {
   int frame = 0;
   PoseLandmarks body;
   double quality = 0;
@@ -55,32 +55,32 @@ std::vector<Crop> tiles(const cv::Mat& image) {
 }
 
 /// Whom the detector sees in the regions of a frame, as the landmarks see them.
-void add_sightings(const cv::Mat& image, int frame, const std::vector<Crop>& regions,
-                   Viewer& viewer, std::vector<Sighting>& sightings) {
+void add_detections(const cv::Mat& image, int frame, const std::vector<Crop>& regions,
+                    Viewer& viewer, std::vector<Detection>& detections) {
   for (const Crop& region : regions)
     for (const Candidate& candidate : viewer.find(image, region)) {
       const PoseLandmarks body = viewer.look(image, candidate.crop);
       if (body.presence >= kPresent)
-        sightings.push_back({frame, body, candidate.score * body.presence});
+        detections.push_back({frame, body, candidate.score * body.presence});
     }
 }
 
-std::vector<Sighting> sightings_of(const Frames& frames, Viewer& viewer, int sampled) {
+std::vector<Detection> detections_of(const Frames& frames, Viewer& viewer, int sampled) {
   std::set<int> numbers;
   for (int i = 0; i < sampled; ++i)
     numbers.insert(static_cast<int>((i + 0.5) * frames.count / sampled));
-  std::vector<Sighting> sightings;
+  std::vector<Detection> detections;
   for (const int frame : numbers) {
     const cv::Mat image = frames.image(frame);
-    add_sightings(image, frame, {crop_of_image(image)}, viewer, sightings);
+    add_detections(image, frame, {crop_of_image(image)}, viewer, detections);
   }
-  if (sightings.empty())
+  if (detections.empty())
     for (const int frame : numbers) {
       const cv::Mat image = frames.image(frame);
-      add_sightings(image, frame, tiles(image), viewer, sightings);
+      add_detections(image, frame, tiles(image), viewer, detections);
     }
-  std::ranges::stable_sort(sightings, std::ranges::greater(), &Sighting::quality);
-  return sightings;
+  std::ranges::stable_sort(detections, std::ranges::greater(), &Detection::quality);
+  return detections;
 }
 
 /// Where a person was lately, and is expected next.
@@ -130,7 +130,7 @@ std::optional<PoseLandmarks> seen_on(const cv::Mat& image, const Path& path, Vie
 }
 
 /// Follows from the frame after `from` to the last one (step 1), or back to the first (−1).
-void follow(const Frames& frames, const Sighting& from, int step, Viewer& viewer,
+void follow(const Frames& frames, const Detection& from, int step, Viewer& viewer,
             std::vector<std::optional<PoseLandmarks>>& bodies,
             const std::function<void()>& looked) {
   Path path{from.body.next};
@@ -182,7 +182,7 @@ int longest_striding(const std::vector<int>& steps) {
   return longest;
 }
 
-FollowedPerson followed(const Frames& frames, const Sighting& from, Viewer& forward,
+FollowedPerson followed(const Frames& frames, const Detection& from, Viewer& forward,
                         Viewer& backward, const std::function<void()>& looked) {
   FollowedPerson person;
   person.frames.resize(static_cast<std::size_t>(frames.count));
@@ -200,31 +200,31 @@ FollowedPerson followed(const Frames& frames, const Sighting& from, Viewer& forw
   return person;
 }
 
-bool is_of(const Sighting& sighting, const FollowedPerson& person) {
-  const auto& body = person.frames[static_cast<std::size_t>(sighting.frame)];
-  return body && (hips(*body) - hips(sighting.body)).norm() < kSamePerson * body->next.size_px;
+bool is_of(const Detection& detection, const FollowedPerson& person) {
+  const auto& body = person.frames[static_cast<std::size_t>(detection.frame)];
+  return body && (hips(*body) - hips(detection.body)).norm() < kSamePerson * body->next.size_px;
 }
 
 }  // namespace
 
 std::vector<FollowedPerson> follow_people(const Frames& frames, Viewer& forward, Viewer& backward,
                                           const FollowOptions& options) {
-  std::vector<Sighting> sightings = sightings_of(frames, forward, options.sampled_frames);
+  std::vector<Detection> detections = detections_of(frames, forward, options.sampled_frames);
   std::vector<FollowedPerson> people;
   std::mutex mutex;
   int done = 0;
-  while (!sightings.empty() && static_cast<int>(people.size()) < options.most_people) {
+  while (!detections.empty() && static_cast<int>(people.size()) < options.most_people) {
     const int of = frames.count * (static_cast<int>(people.size()) + 1);
     done = frames.count * static_cast<int>(people.size());
     const auto looked = [&] {
       const std::lock_guard lock(mutex);
       if (++done; options.progress) options.progress(done, of);
     };
-    people.push_back(followed(frames, sightings.front(), forward, backward, looked));
-    std::erase_if(sightings, [&](const Sighting& s) { return is_of(s, people.back()); });
-    // Seen once only: hardly somebody else. The best sighting itself always is of this person.
+    people.push_back(followed(frames, detections.front(), forward, backward, looked));
+    std::erase_if(detections, [&](const Detection& s) { return is_of(s, people.back()); });
+    // Seen once only: hardly somebody else. The best detection itself always is of this person.
     std::set<int> left;
-    for (const Sighting& s : sightings) left.insert(s.frame);
+    for (const Detection& s : detections) left.insert(s.frame);
     if (left.size() < 2) break;
   }
   std::ranges::stable_sort(people, std::ranges::greater(),

@@ -17,7 +17,7 @@ constexpr double kNone_m = 100;  // what is observed where there is no obstacle
 constexpr double kSame_m = 1e-6;
 
 double clipped(double x) {
-  return std::clamp(x, -RobustFeatures::kSight_m, RobustFeatures::kSight_m);
+  return std::clamp(x, -RobustFeatures::kObstacleRange_m, RobustFeatures::kObstacleRange_m);
 }
 
 double near_side(const simulation::Obstacle& obstacle) { return obstacle.x_m - obstacle.radius_m; }
@@ -69,8 +69,9 @@ void RobustFeatures::remember(const Eigen::VectorXd& observation) {
 const simulation::Obstacle* RobustFeatures::next(double x, double pelvis_x) const {
   const auto found = std::ranges::find_if(
       obstacles_, [x](const simulation::Obstacle& each) { return far_side(each) >= x; });
-  const bool in_sight = found != obstacles_.end() && near_side(*found) - pelvis_x < kSight_m;
-  return in_sight ? &*found : nullptr;
+  const bool in_range =
+      found != obstacles_.end() && near_side(*found) - pelvis_x < kObstacleRange_m;
+  return in_range ? &*found : nullptr;
 }
 
 void RobustFeatures::read(const Eigen::VectorXd& observation, double* values) {
@@ -92,14 +93,14 @@ void RobustFeatures::read(const Eigen::VectorXd& observation, double* values) {
   put({observation[kStrengthR], clean ? observation[kStrengthL] : 1});
 
   const simulation::Obstacle* ahead = next(x, x);
-  put({ahead ? clipped(near_side(*ahead) - x) : kSight_m,
+  put({ahead ? clipped(near_side(*ahead) - x) : kObstacleRange_m,
        ahead ? ahead->y_m + ahead->radius_m : 0});
   for (const Leg<double>& leg : legs) {
     const simulation::Obstacle* each = next(x + leg.ankle.x(), x);
     const double top = each ? each->y_m + each->radius_m : 0;
-    put({each ? clipped(near_side(*each) - x - leg.toe.x()) : kSight_m,
-         each ? clipped(far_side(*each) - x - leg.ankle.x()) : kSight_m, leg.toe.y() + y - top,
-         leg.ankle.y() + y - top});
+    put({each ? clipped(near_side(*each) - x - leg.toe.x()) : kObstacleRange_m,
+         each ? clipped(far_side(*each) - x - leg.ankle.x()) : kObstacleRange_m,
+         leg.toe.y() + y - top, leg.ankle.y() + y - top});
   }
 }
 

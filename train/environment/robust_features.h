@@ -19,11 +19,11 @@ namespace stride::environment {
 /// - obstacles, every one that was once observed: `obstacle_near_x` from the pelvis to the near
 ///   side of the next one and `obstacle_top_y`; for each foot and the next one that it has not left
 ///   behind `toe_r_to_near_side`, `ankle_r_to_far_side`, `toe_r_above_top`, `ankle_r_above_top`.
-///   Distances are clipped to kSight_m; with nothing in sight the obstacle is kSight_m away and
-///   flat. Under nips2017 obstacles are as large as they collide, not as observed (O4).
+///   Distances are clipped to kObstacleRange_m; with none in range the obstacle is kObstacleRange_m
+///   away and flat. Under nips2017 obstacles are as large as they collide, not as observed (O4).
 class RobustFeatures {
  public:
-  static constexpr double kSight_m = 3;
+  static constexpr double kObstacleRange_m = 3;
 
   RobustFeatures(const osim::Model& model, competition::Rules rules);
 
@@ -37,7 +37,7 @@ class RobustFeatures {
 
  private:
   void remember(const Eigen::VectorXd& observation);
-  /// The first obstacle whose far side is not behind x, if its near side is in sight of the pelvis.
+  /// The first obstacle whose far side is not behind x, if its near side is in range of the pelvis.
   const simulation::Obstacle* next(double x, double pelvis_x) const;
 
   SagittalModel model_;
