@@ -319,10 +319,7 @@ void add_annotate_command(CLI::App& app) {
   command.add_flag("--head", request->session.head, "ask for the head too");
   command.add_option("--import", request->import_from,
                      "points of another program to correct: a file or a folder");
-  add_import_options(command, request->import);
-  add_pose_options(command, request->pose);
-  command.add_flag("!--no-leg-repair", request->repair_legs,
-                   "leave right and left of imported points as they are");
+  add_detection_options(command, request->import, request->pose, request->repair_legs);
   command.add_flag("--keys", request->keys, "print the table of keys and leave");
   command.callback([request, &command] {
     require_effect(command, request->import_from, request->pose);

@@ -223,10 +223,7 @@ void add_track_command(CLI::App& app) {
                      "network finds the joints)");
   command.add_option("--import", request->import_from,
                      "points of another program instead of clicks: a file or a folder");
-  add_import_options(command, request->import);
-  add_pose_options(command, request->pose);
-  command.add_flag("!--no-leg-repair", request->repair_legs,
-                   "leave right and left of imported points as they are");
+  add_detection_options(command, request->import, request->pose, request->repair_legs);
   command.add_option("-o,--out", request->out,
                      "trajectory to write (default: NAME.trajectory.csv beside the video, unless "
                      "--export says otherwise)");

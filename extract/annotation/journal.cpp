@@ -231,26 +231,23 @@ void AnnotationJournal::apply(Change change) {
   }
 }
 
-std::optional<Change> AnnotationJournal::undo() {
-  const std::optional<Change> change = document_.undo();
+std::optional<Change> AnnotationJournal::recorded(Step step, Step back) {
+  const std::optional<Change> change = (document_.*step)();
   try {
     if (change) record(*change);
   } catch (...) {
-    document_.redo();
+    (document_.*back)();
     throw;
   }
   return change;
 }
 
+std::optional<Change> AnnotationJournal::undo() {
+  return recorded(&AnnotationDocument::undo, &AnnotationDocument::redo);
+}
+
 std::optional<Change> AnnotationJournal::redo() {
-  const std::optional<Change> change = document_.redo();
-  try {
-    if (change) record(*change);
-  } catch (...) {
-    document_.undo();
-    throw;
-  }
-  return change;
+  return recorded(&AnnotationDocument::redo, &AnnotationDocument::undo);
 }
 
 void AnnotationJournal::fold() {

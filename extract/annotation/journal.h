@@ -50,6 +50,9 @@ class AnnotationJournal {
   void replay(const std::string& content);
 
   void record(const Change& change);
+  using Step = std::optional<Change> (AnnotationDocument::*)();
+  /// A step through the document's history; where it cannot be recorded, the step back too.
+  std::optional<Change> recorded(Step step, Step back);
   void load_history();
   void save_history() const;
 

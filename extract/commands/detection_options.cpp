@@ -8,6 +8,7 @@
 #include "extract/skeleton/body_part.h"
 
 namespace stride {
+namespace {
 
 void add_import_options(CLI::App& command, imports::ImportOptions& options) {
   command
@@ -86,6 +87,16 @@ void add_pose_options(CLI::App& command, pose::PoseOptions& options) {
           },
           "where the person is on the first frame, px: X Y WIDTH HEIGHT (default: whole frames)")
       ->expected(4);
+}
+
+}  // namespace
+
+void add_detection_options(CLI::App& command, imports::ImportOptions& import,
+                           pose::PoseOptions& pose, bool& repair_legs) {
+  add_import_options(command, import);
+  add_pose_options(command, pose);
+  command.add_flag("!--no-leg-repair", repair_legs,
+                   "leave right and left of imported points as they are");
 }
 
 void require_effect(const CLI::App& command, const std::filesystem::path& import_from,

@@ -9,10 +9,10 @@ class App;
 
 namespace stride {
 
-/// Adds to a command the options of points from another program: --format, --person, …
-void add_import_options(CLI::App& command, imports::ImportOptions& options);
-/// Adds to a command the options of points from a pose model: --pose, …
-void add_pose_options(CLI::App& command, pose::PoseOptions& options);
+/// Adds to a command the options of points that are not clicked: of another program's --format,
+/// --person, …, of a pose network's --pose, …, and of both --no-leg-repair.
+void add_detection_options(CLI::App& command, imports::ImportOptions& import,
+                           pose::PoseOptions& pose, bool& repair_legs);
 
 /// Throws Error if one of these options was given and has no effect: of an imported file without
 /// `import_from`, of a user's network without one.
