@@ -79,9 +79,7 @@ int explain(const CLI::App& app, int argc, char** argv, const CLI::ParseError& e
   return 2;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"Stride: from a running video to a muscle-driven runner"};
   app.require_subcommand(1);
   app.set_version_flag("--version", stride::version());
@@ -107,6 +105,16 @@ int main(int argc, char** argv) {
     return 1;
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", shown(e.what()));
+    return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (...) {  // where not even the message can be written
     return 1;
   }
 }

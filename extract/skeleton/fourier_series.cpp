@@ -6,8 +6,9 @@ namespace {
 /// Cosine and sine of each harmonic's angle. How the angle is rounded is the caller's choice.
 template <typename AngleOf>
 void fill(std::span<double> waves, AngleOf angle_of) {
-  for (std::size_t i = 0; i + 1 < waves.size(); i += 2) {
-    const double angle = angle_of(static_cast<double>(i / 2 + 1));
+  double harmonic = 1;
+  for (std::size_t i = 0; i + 1 < waves.size(); i += 2, ++harmonic) {
+    const double angle = angle_of(harmonic);
     waves[i] = std::cos(angle);
     waves[i + 1] = std::sin(angle);
   }
