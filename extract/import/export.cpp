@@ -47,31 +47,30 @@ void write_json(const Trajectory& trajectory, const fs::path& file) {
 }
 
 void write_trc(const Trajectory& trajectory, const fs::path& file) {
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
+  std::string out;
   const auto frames = trajectory.frames.size();
   const std::vector<BodyPart> all = seen_parts(trajectory);
-  fmt::format_to(to, "PathFileType\t4\t(X/Y/Z)\t{}\n", file.filename().string());
-  fmt::format_to(to,
-                 "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
-                 "OrigDataStartFrame\tOrigNumFrames\n");
-  fmt::format_to(to, "{0}\t{0}\t{1}\t{2}\tpx\t{0}\t{3}\t{1}\n", trajectory.rate_hz, frames,
-                 all.size(), frames > 0 ? trajectory.frames[0].frame : 0);
-  fmt::format_to(to, "Frame#\tTime");
-  for (const BodyPart part : all) fmt::format_to(to, "\t{}\t\t", name(part));
-  fmt::format_to(to, "\n\t");
-  for (std::size_t i = 1; i <= all.size(); ++i) fmt::format_to(to, "\tX{0}\tY{0}\tZ{0}", i);
-  fmt::format_to(to, "\n");
+  out += fmt::format("PathFileType\t4\t(X/Y/Z)\t{}\n", file.filename().string());
+  out +=
+      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
+      "OrigDataStartFrame\tOrigNumFrames\n";
+  out += fmt::format("{0}\t{0}\t{1}\t{2}\tpx\t{0}\t{3}\t{1}\n", trajectory.rate_hz, frames,
+                     all.size(), frames > 0 ? trajectory.frames[0].frame : 0);
+  out += "Frame#\tTime";
+  for (const BodyPart part : all) out += fmt::format("\t{}\t\t", name(part));
+  out += "\n\t";
+  for (std::size_t i = 1; i <= all.size(); ++i) out += fmt::format("\tX{0}\tY{0}\tZ{0}", i);
+  out += "\n";
   for (const TrajectoryFrame& frame : trajectory.frames) {
-    fmt::format_to(to, "{}\t{}", frame.frame, frame.time_s);
+    out += fmt::format("{}\t{}", frame.frame, frame.time_s);
     for (const BodyPart part : all) {
       const Point& point = frame[part];
-      point.present() ? fmt::format_to(to, "\t{}\t{}\t0", point.p_px.x(), point.p_px.y())
-                      : fmt::format_to(to, "\t\t\t");
+      out +=
+          point.present() ? fmt::format("\t{}\t{}\t0", point.p_px.x(), point.p_px.y()) : "\t\t\t";
     }
-    fmt::format_to(to, "\n");
+    out += "\n";
   }
-  write_file_atomically(file, {out.data(), out.size()});
+  write_file_atomically(file, out);
 }
 
 void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
@@ -83,21 +82,20 @@ void write_deeplabcut(const Trajectory& trajectory, const fs::path& file) {
       parts.emplace_back(name(part));
       coords.emplace_back(coordinate);
     }
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
+  std::string out;
   for (const auto* row : {&scorer, &parts, &coords})
-    fmt::format_to(to, "{}\n", fmt::join(*row, ","));
+    out += fmt::format("{}\n", fmt::join(*row, ","));
   for (const TrajectoryFrame& frame : trajectory.frames) {
-    fmt::format_to(to, "{}", frame.frame);
+    out += fmt::format("{}", frame.frame);
     for (const BodyPart part : all) {
       const Point& point = frame[part];
-      point.present()
-          ? fmt::format_to(to, ",{},{},{}", point.p_px.x(), point.p_px.y(), point.confidence)
-          : fmt::format_to(to, ",,,");
+      out += point.present()
+                 ? fmt::format(",{},{},{}", point.p_px.x(), point.p_px.y(), point.confidence)
+                 : ",,,";
     }
-    fmt::format_to(to, "\n");
+    out += "\n";
   }
-  write_file_atomically(file, {out.data(), out.size()});
+  write_file_atomically(file, out);
 }
 
 void write_openpose(const Trajectory& trajectory, const fs::path& folder) {

@@ -132,20 +132,19 @@ Table load_table(const std::filesystem::path& file, std::string_view format, int
 }
 
 void save(const Table& table, const std::filesystem::path& file) {
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  if (!table.format.empty()) fmt::format_to(to, "# stride {} {}\n", table.format, table.version);
+  std::string out;
+  if (!table.format.empty()) out += fmt::format("# stride {} {}\n", table.format, table.version);
   for (const auto& [key, value] : table.metadata)
-    fmt::format_to(to, "# {}: {}\n", key, one_line(value));
-  fmt::format_to(to, "{}\n", fmt::join(table.columns, ","));
+    out += fmt::format("# {}: {}\n", key, one_line(value));
+  out += fmt::format("{}\n", fmt::join(table.columns, ","));
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      if (i > 0) out.push_back(',');
-      if (!std::isnan(row[i])) fmt::format_to(to, "{}", row[i]);
+      if (i > 0) out += ',';
+      if (!std::isnan(row[i])) out += fmt::format("{}", row[i]);
     }
-    out.push_back('\n');
+    out += '\n';
   }
-  write_file_atomically(file, {out.data(), out.size()});
+  write_file_atomically(file, out);
 }
 
 }  // namespace stride
