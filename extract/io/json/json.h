@@ -24,7 +24,8 @@ nlohmann::ordered_json parse_json(std::string_view content, const std::filesyste
 template <typename Json = nlohmann::ordered_json>
 Json json_or_null(std::string_view content) {
   Json json = Json::parse(content, nullptr, /*allow_exceptions=*/false);
-  return json.is_discarded() ? Json() : json;
+  if (json.is_discarded()) json = nullptr;
+  return json;
 }
 
 /// A value in a document of ours and its place for errors: the file or a part of it, and the keys

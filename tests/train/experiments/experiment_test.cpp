@@ -10,6 +10,10 @@
 namespace stride {
 namespace {
 
+constexpr const char* kExperiment =
+    "title = \"T\"\npreset = \"shaping\"\ndecisions = 4000\nseeds = 1\n"
+    "[a]\npotential = \"p.potential.json\"\n";
+
 /// An experiment of one arm and seed that is shaped by FOLDER/p.potential.json.
 class Begun {
  public:
@@ -22,9 +26,7 @@ class Begun {
 
   /// As far as the run folders. Returns whether it was finished.
   bool begin(const std::vector<std::string>& settings = {}, bool merge = false) {
-    write_file_atomically(folder_ / "experiment.toml",
-                          "title = \"T\"\npreset = \"shaping\"\ndecisions = 4000\nseeds = 1\n"
-                          "[a]\npotential = \"p.potential.json\"\n");
+    write_file_atomically(folder_ / "experiment.toml", kExperiment);
     experiments::ExperimentOptions options;
     options.experiment = experiments::load_experiment(folder_ / "experiment.toml", settings);
     options.runs = folder_ / "runs";
@@ -66,9 +68,7 @@ TEST(Experiment, RefusesAFinishedRunOfAnotherPotential) {
 
 TEST(Experiment, AMissingPotentialIsToldBeforeAnythingRuns) {
   const TemporaryFolder folder;
-  write_file_atomically(folder / "experiment.toml",
-                        "title = \"T\"\npreset = \"shaping\"\ndecisions = 4000\nseeds = 1\n"
-                        "[a]\npotential = \"p.potential.json\"\n");
+  write_file_atomically(folder / "experiment.toml", kExperiment);
   EXPECT_ERROR(experiments::run_names(experiments::load_experiment(folder / "experiment.toml")),
                "p.potential.json");
 }
