@@ -178,8 +178,8 @@ GroundPath ground_path(const Trajectory& trajectory, const fit::Marks& marks, co
   for (std::size_t i = 0; i < path.u_s.size(); ++i) {
     const int frame = static_cast<int>(i);
     const double u = path.u_s[i];
-    path.pelvis_px.push_back(fit.passage.pelvis_px[i] + shift[i]);
-    path.com_px.push_back(centre_of_mass(fit.passage, directions, frame, u) + shift[i]);
+    path.pelvis_px.emplace_back(fit.passage.pelvis_px[i] + shift[i]);
+    path.com_px.emplace_back(centre_of_mass(fit.passage, directions, frame, u) + shift[i]);
     for (std::size_t k = 0; k < kFeet.size(); ++k)
       path.feet_px[k].push_back(predicted_px(fit.passage, directions, kFeet[k], frame, u) +
                                 shift[i]);

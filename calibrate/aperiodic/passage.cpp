@@ -19,9 +19,9 @@ SplinePlace Passage::place(double u_s) const {
 Angles Passage::angles(double u_s) const {
   const SplinePlace at = place(u_s);
   Angles angles{};
-  for (int k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < 4; ++k)
     for (int a = 0; a < kAngles; ++a)
-      angles[a] += at.weight[k] * knots[static_cast<std::size_t>(at.first + k)][a];
+      angles[a] += at.weight[k] * knots[static_cast<std::size_t>(at.first) + k][a];
   return angles;
 }
 

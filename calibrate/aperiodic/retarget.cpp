@@ -15,8 +15,7 @@ using Eigen::Vector2d;
 CalibratedSample pose_at(const Angles& angles, double roll_rad, const SagittalModel& model) {
   CalibratedSample sample;
   sample.coordinates[0] = angles[tilt] - roll_rad;
-  for (int i = 0; i < 6; ++i)
-    sample.coordinates[static_cast<std::size_t>(3 + i)] = angles[static_cast<std::size_t>(1 + i)];
+  for (std::size_t i = 0; i < 6; ++i) sample.coordinates[3 + i] = angles[1 + i];
   place_parts(model, sample);
   forget_heels(sample);
   return sample;

@@ -28,8 +28,8 @@ Grid grid_of(const fit::Marks& marks) {
 std::vector<Vector2d> between(const Grid& grid, BodyPart from, BodyPart to) {
   std::vector<Vector2d> all;
   for (std::size_t i = 0; i < grid[0].size(); ++i)
-    all.push_back(grid[static_cast<std::size_t>(index(to))][i] -
-                  grid[static_cast<std::size_t>(index(from))][i]);
+    all.emplace_back(grid[static_cast<std::size_t>(index(to))][i] -
+                     grid[static_cast<std::size_t>(index(from))][i]);
   return all;
 }
 

@@ -66,7 +66,7 @@ std::optional<double> slope_of_path(const Trajectory& trajectory, const Backgrou
       camera += step;
     }
     if (!frame[BodyPart::pelvis].present()) continue;
-    path.push_back(frame[BodyPart::pelvis].p_px - camera);
+    path.emplace_back(frame[BodyPart::pelvis].p_px - camera);
     mean += path.back();
   }
   if (path.size() < 8) return std::nullopt;

@@ -45,8 +45,9 @@ Stance find_stance(const StrideFit& fit, const Directions& directions, BodyPart 
     const auto leg = leg_angles(r.hip.data(), r.knee.data(), r.ankle.data(), r.asymmetry.data(),
                                 fit.harmonics, side, phase);
     const double tilt = evaluate_series(r.tilt.data(), kTiltHarmonics, phase);
-    path.push_back(place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase) +
-                   Eigen::Vector2d(0, fit.vertical_oscillation(phase)));
+    path.emplace_back(
+        place_part(part, directions, r.body.data(), r.sides.data(), tilt, leg, phase) +
+        Eigen::Vector2d(0, fit.vertical_oscillation(phase)));
   }
   double lowest_m = path.front().y();
   for (const Eigen::Vector2d& p : path) lowest_m = std::min(lowest_m, p.y());

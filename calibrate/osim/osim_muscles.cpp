@@ -81,7 +81,7 @@ void read_muscle(Model& model, const OsimElement& from) {
                                      "ignore_tendon_compliance",
                                      "ignore_activation_dynamics"};
   for (const Figure& each : figures) {
-    read.push_back(each.tag);
+    read.emplace_back(each.tag);
     *each.value = from.number(each.tag, *each.value);
     if (each.positive && !(*each.value > 0))
       from.need(each.tag).fail(fmt::format("{}: must be > 0", *each.value));

@@ -60,7 +60,7 @@ Change AnnotationDocument::exchange(const Change& change) {
   return back;
 }
 
-void AnnotationDocument::apply(Change change) {
+void AnnotationDocument::apply(const Change& change) {
   Change back = exchange(change);
   try {
     check(keypoints_, change.what);

@@ -53,7 +53,7 @@ class AnnotationDocument {
   void remember(std::vector<Change> history) { undo_ = std::move(history); }
 
   /// Throws Error and changes nothing if the result would violate the rules of the format.
-  void apply(Change change);
+  void apply(const Change& change);
   /// The change that was made; nothing if there was none to undo or redo.
   std::optional<Change> undo();
   std::optional<Change> redo();

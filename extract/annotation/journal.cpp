@@ -32,7 +32,7 @@ std::string hash_of(const fs::path& file) {
 
 Keypoints opened(const fs::path& file, const Keypoints& fresh) {
   if (!fs::exists(file)) return fresh;
-  const Keypoints keypoints = load_keypoints(file);
+  Keypoints keypoints = load_keypoints(file);
   require(fresh.video_sha256.empty() || keypoints.video_sha256 == fresh.video_sha256,
           "{}: was clicked on another video ({}, SHA-256 {:.12}…) than this one ({}, {:.12}…); "
           "move it away to annotate this one",
@@ -51,7 +51,7 @@ fs::path unused_name_beside(const fs::path& file) {
   fs::path stem = file;
   stem.replace_extension();
   for (int i = 1;; ++i) {
-    const fs::path candidate = fmt::format("{}.mine{}.json", stem.string(), i);
+    fs::path candidate = fmt::format("{}.mine{}.json", stem.string(), i);
     if (!fs::exists(candidate)) return candidate;
   }
 }
@@ -221,7 +221,7 @@ void AnnotationJournal::record(const Change& change) {
   if (base_.empty()) fold();  // so that there is a file from the first click
 }
 
-void AnnotationJournal::apply(Change change) {
+void AnnotationJournal::apply(const Change& change) {
   document_.apply(change);
   try {
     record(change);
@@ -232,7 +232,7 @@ void AnnotationJournal::apply(Change change) {
 }
 
 std::optional<Change> AnnotationJournal::recorded(Step step, Step back) {
-  const std::optional<Change> change = (document_.*step)();
+  std::optional<Change> change = (document_.*step)();
   try {
     if (change) record(*change);
   } catch (...) {

@@ -35,7 +35,7 @@ class AnnotationJournal {
 
   /// As AnnotationDocument's, and on disk on return. If the disk fails (full, read only), the edit
   /// is undone and the Error names the file and the reason.
-  void apply(Change change);
+  void apply(const Change& change);
   std::optional<Change> undo();
   std::optional<Change> redo();
 

@@ -165,7 +165,7 @@ std::string one_line(std::string_view text) {
 }
 
 std::string from_one_line(std::string_view written) {
-  const std::string as_it_is(written);
+  std::string as_it_is(written);
   if (written.size() < 2 || !written.starts_with('"') || !written.ends_with('"')) return as_it_is;
   std::string text;
   for (std::string_view rest = written.substr(1, written.size() - 2); !rest.empty();) {

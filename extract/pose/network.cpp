@@ -58,7 +58,7 @@ cv::Mat input_of(const cv::Mat& bgr, const Letterbox& crop, const PoseSidecar& s
 cv::Mat self_check_input(int width_px, int height_px) {
   const int shape[]{1, 3, height_px, width_px};
   cv::Mat input(4, shape, CV_32F);
-  float* values = input.ptr<float>();
+  auto* values = input.ptr<float>();
   for (std::size_t i = 0; i < input.total(); ++i)
     values[i] = static_cast<float>(std::sin(static_cast<double>(i)));
   return input;

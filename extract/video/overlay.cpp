@@ -139,7 +139,7 @@ std::vector<Eigen::Vector2d> displacement_over_ground(const Trajectory& trajecto
   for (std::size_t k = i;; --k) {
     const TrajectoryFrame& frame = trajectory.frames[k];
     if (!frame[part].present() || frame.time_s < now_s - seconds) break;
-    displacement.push_back(frame[part].p_px + moved);
+    displacement.emplace_back(frame[part].p_px + moved);
     if (k == 0) break;
     if (frame.camera_px.allFinite()) moved += frame.camera_px;
   }

@@ -116,7 +116,7 @@ std::string about_run(const fs::path& run) {
 }
 
 std::string about_json(const fs::path& file) {
-  const std::string content = read_file(file);
+  std::string content = read_file(file);
   if (content.find("\"stride-potential\"") != std::string::npos)
     return about_potential(load_potential(file));
   if (content.find("\"stride keypoints\"") != std::string::npos ||

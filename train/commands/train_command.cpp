@@ -86,7 +86,7 @@ fs::path resume(const TrainRequest& request) {
               request.from.empty() && request.assignments.empty() && !request.seed,
           "--resume {}: a run keeps its configuration; only --decisions may be given with it",
           request.resume);
-  const fs::path run = request.resume;
+  fs::path run = request.resume;
   training::TrainOptions options = training::load_run_options(run);
   if (request.decisions && *request.decisions != options.run.decisions) {
     options.run.decisions = *request.decisions;

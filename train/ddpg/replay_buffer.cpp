@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "extract/io/error.h"
 #include "shaping/shaping_reward.h"
@@ -15,9 +16,10 @@ namespace {
 template <typename Element>
 void advise_large_pages(Element* data, std::size_t count) {
   constexpr std::size_t kPage = 4096;
-  const std::size_t begin = (reinterpret_cast<std::size_t>(data) + kPage - 1) / kPage * kPage;
-  const std::size_t end = reinterpret_cast<std::size_t>(data + count) / kPage * kPage;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  std::size_t bytes = count * sizeof(Element);
+  void* begin = data;
+  if (std::align(kPage, kPage, begin, bytes) != nullptr)
+    ::madvise(begin, bytes / kPage * kPage, MADV_HUGEPAGE);
 }
 
 /// Prefetches memory.

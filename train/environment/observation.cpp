@@ -90,7 +90,7 @@ Observer::Observer(const EnvironmentSpec& spec, const ObservationOptions& option
   }
   last_rates_.resize(static_cast<Eigen::Index>(rates_.size()));
   if (phase_) {
-    if (phase_as_ == PhaseAs::passage) names_.push_back("passage");
+    if (phase_as_ == PhaseAs::passage) names_.emplace_back("passage");
     if (phase_as_ == PhaseAs::cycle) names_.insert(names_.end(), {"cycle_sin", "cycle_cos"});
     if (phase_as_ == PhaseAs::phase_of_turns)
       names_.insert(names_.end(), {"phase_sin", "phase_cos"});

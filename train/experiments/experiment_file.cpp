@@ -141,7 +141,7 @@ ExperimentArm arm_of(const std::string& name, std::vector<TomlSetting> settings,
 
 fs::path experiment_file(const std::string& name) {
   if (name.ends_with(".toml")) return name;
-  const fs::path in_folder = (fs::path(name) / "experiment.toml").lexically_normal();
+  fs::path in_folder = (fs::path(name) / "experiment.toml").lexically_normal();
   if (fs::exists(in_folder)) return in_folder;
   const fs::path folder = data_file("train/results");
   std::map<std::string, fs::path> files = experiments_in(folder, "");

@@ -18,7 +18,7 @@ constexpr int kStepsPerFrame = 2;
 /// `NAME.calibrated.csv` or `NAME.trajectory.csv` of a video, in the first folder that has it.
 fs::path sibling(const fs::path& video, const fs::path& other, const char* extension) {
   for (const fs::path& folder : {video.parent_path(), other}) {
-    const fs::path file = folder / (video.stem().string() + extension);
+    fs::path file = folder / (video.stem().string() + extension);
     if (fs::exists(file)) return file;
   }
   return {};

@@ -31,7 +31,7 @@ Canvas::Canvas(cv::Size size_px, double metres_high, double centre_x_m)
       centre_x_m_(centre_x_m) {}
 
 cv::Point2d Canvas::place(simulation::PlanarVector p) const {
-  return {picture_.cols / 2 + (p.x - centre_x_m_) * scale_,
+  return {picture_.cols / 2.0 + (p.x - centre_x_m_) * scale_,
           picture_.rows * kGroundRow - p.y * scale_};
 }
 

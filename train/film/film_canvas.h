@@ -22,8 +22,8 @@ class Canvas {
   Canvas(cv::Size size_px, double metres_high, double centre_x_m);
 
   cv::Mat& picture() { return picture_; }
-  double left_m() const { return centre_x_m_ - picture_.cols / 2 / scale_; }
-  double right_m() const { return centre_x_m_ + picture_.cols / 2 / scale_; }
+  double left_m() const { return centre_x_m_ - picture_.cols / 2.0 / scale_; }
+  double right_m() const { return centre_x_m_ + picture_.cols / 2.0 / scale_; }
   cv::Point2d place(simulation::PlanarVector p) const;
 
   void disc(simulation::PlanarVector p, double radius_m, const cv::Scalar& colour, int rim_px = -1);

@@ -10,7 +10,7 @@ double Adam<Scalar>::descend(Vector& parameters, Vector& gradient, double rate) 
     m = Vector::Zero(parameters.size());
     v = Vector::Zero(parameters.size());
   }
-  const double norm = static_cast<double>(gradient.norm());
+  const auto norm = static_cast<double>(gradient.norm());
   if (options.gradient_norm_limit > 0 && norm > options.gradient_norm_limit)
     gradient *= static_cast<Scalar>(options.gradient_norm_limit / norm);
 

@@ -31,7 +31,7 @@ struct Policy {
     if (mirrored) symmetry->features.apply(features, seen);
     typename Mlp<Scalar>::Matrix input = seen.cast<Scalar>();
     normaliser.apply(input);
-    const Eigen::VectorXd action = actor.forward(input, work).col(0).template cast<double>();
+    Eigen::VectorXd action = actor.forward(input, work).col(0).template cast<double>();
     if (!mirrored) return action;
     Eigen::VectorXd done(action.size());
     symmetry->actions.apply(action, done);

@@ -32,7 +32,7 @@ class Graph {
   /// Adds an operation on the named values; returns the name of its result.
   std::string add(const std::string& op, const std::vector<std::string>& inputs,
                   decltype(OnnxNode::attributes) attributes = {}) {
-    const std::string result = fmt::format("{}.{}", model.nodes.size(), op);
+    std::string result = fmt::format("{}.{}", model.nodes.size(), op);
     model.nodes.push_back({op, inputs, {result}, std::move(attributes)});
     return result;
   }

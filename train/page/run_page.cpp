@@ -24,7 +24,7 @@ Json load_evaluation(const fs::path& run) {
   const fs::path file = evaluation_file(run);
   require(fs::exists(file), "{}: the run has not been evaluated; `stride evaluate {}` does it",
           run.string(), run.string());
-  const Json json = json_or_null(read_file(file));
+  Json json = json_or_null(read_file(file));
   require(json.is_object() && json.contains("format") && json["format"] == "stride-evaluation",
           "{}: not what stride evaluate writes", file.string());
   return json;

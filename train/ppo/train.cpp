@@ -27,7 +27,7 @@ Table new_ppo_curve(const std::string& task) {
   Table table = training::new_curve(task);
   table.columns.resize(kSharedColumns);
   for (const char* name : {"kl", "entropy", "value_loss", "explained_variance", "actor_rate"})
-    table.columns.push_back(name);
+    table.columns.emplace_back(name);
   return table;
 }
 

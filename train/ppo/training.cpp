@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
-#include <array>
 #include "train/ppo/exchange.h"
 
 namespace stride::ppo {
@@ -60,18 +60,18 @@ network::Policy<float> policy_of(const PpoTraining& training) {
 
 void collect(const training::TrainOptions& options, PpoTraining& training,
              training::ThreadPool& threads, parallel::Ranks& ranks, RolloutBatch& batch) {
-  const int n = options.run.environments, steps = options.ppo.horizon;
+  const int n = options.run.environments, steps = options.ppo.horizon, samples = steps * n;
   const auto features = static_cast<Eigen::Index>(training.feature_names.size());
   const auto actions = static_cast<Eigen::Index>(training.action_names.size());
   batch.environments = n;
   batch.steps = steps;
-  batch.states.resize(features, (steps + 1) * n);
-  batch.actions.resize(actions, steps * n);
-  batch.logits.resize(actions, steps * n);
-  batch.rewards.resize(steps * n);
-  batch.ends.assign(static_cast<std::size_t>(steps * n), EpisodeEnd::none);
-  batch.observed.resize(features, (steps + 1) * n);
-  batch.after.assign(static_cast<std::size_t>(steps * n), Matrix());
+  batch.states.resize(features, samples + n);
+  batch.actions.resize(actions, samples);
+  batch.logits.resize(actions, samples);
+  batch.rewards.resize(samples);
+  batch.ends.assign(static_cast<std::size_t>(samples), EpisodeEnd::none);
+  batch.observed.resize(features, samples + n);
+  batch.after.assign(static_cast<std::size_t>(samples), Matrix());
 
   const Options& ppo = options.ppo;
   const double age =
@@ -81,6 +81,9 @@ void collect(const training::TrainOptions& options, PpoTraining& training,
   threads.run((n + kGroup - 1) / kGroup, [&](int group) {
     if (!ranks.owns(group)) return;
     const int begin = group * kGroup, size = std::min(kGroup, n - begin);
+    const std::span<Slot> slots =
+        std::span(training.slots)
+            .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(size));
     network::Mlp<float>::Workspace work;
     Matrix states(features, size);
     std::array<const environment::Mirror*, kGroup> mirrors{};  // of each slot's next action
@@ -95,8 +98,7 @@ void collect(const training::TrainOptions& options, PpoTraining& training,
     };
     const auto see = [&](int first) {
       for (int i = 0; i < size; ++i) {
-        mirrors[static_cast<std::size_t>(i)] =
-            view(training.slots[static_cast<std::size_t>(begin + i)].features());
+        mirrors[static_cast<std::size_t>(i)] = view(slots[static_cast<std::size_t>(i)].features());
         batch.observed.col(first + i) = seen;
       }
       states = batch.observed.middleCols(first, size).cast<float>();
@@ -108,7 +110,7 @@ void collect(const training::TrainOptions& options, PpoTraining& training,
       const Matrix& logits = training.learner.actor().forward(states, work);
       for (int i = 0; i < size; ++i) {
         const int column = t * n + begin + i;
-        Slot& slot = training.slots[static_cast<std::size_t>(begin + i)];
+        Slot& slot = slots[static_cast<std::size_t>(i)];
         batch.logits.col(column) = logits.col(i);
         const auto [reward, end] =
             slot.decide(batch.logits.col(column), alive_per_s, batch.actions.col(column),

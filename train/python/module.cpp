@@ -25,7 +25,7 @@ std::span<T> span_of(const py::dict& arrays, const char* name, std::size_t size)
   using Array = py::array_t<T, py::array::c_style>;
   require(arrays.contains(name) && py::isinstance<Array>(arrays[name]),
           "arrays['{}']: a C-contiguous array of its type is needed", name);
-  Array array = py::reinterpret_borrow<Array>(arrays[name]);
+  auto array = py::reinterpret_borrow<Array>(arrays[name]);
   require(static_cast<std::size_t>(array.size()) == size,
           "arrays['{}']: has {} elements, {} are needed", name, array.size(), size);
   return {array.mutable_data(), size};

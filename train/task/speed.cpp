@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "extract/io/error.h"
 #include "train/task/tasks.h"
@@ -54,7 +53,7 @@ class Speed final : public Task {
       : wanted_m_s_(options.speed_m_s),
         effort_m_s_(options.effort),
         slip_(options.slip),
-        ground_(std::move(ground)) {
+        ground_(ground) {
     require(options.speed_m_s > 0 && options.speed_m_s <= 12,
             "task.speed_m_s = {}: must be in (0, 12]", options.speed_m_s);
     require(options.effort >= 0 && options.effort <= 100, "task.effort = {}: must be in [0, 100]",

@@ -24,7 +24,7 @@ void estimate_noise(const FitProblem& problem, StrideFit& fit) {
   }
   const double parameters =
       2.0 * static_cast<double>(fit.pelvis_px.size()) + 30 + 6 * fit.harmonics;
-  const double marks = static_cast<double>(absolute.size());
+  const auto marks = static_cast<double>(absolute.size());
   const double freedom = std::max(0.2, 1 - parameters / marks);
   const double seen =
       std::max(kLeastSigma, kSigmaPerMedian * median(absolute) / std::sqrt(freedom));

@@ -72,7 +72,7 @@ class Player {
  private:
   Eigen::Vector2d canvas(const ScriptJson& image) const {
     const Eigen::Vector2d p_px(image.at(0).get<double>(), image.at(1).get<double>());
-    const Eigen::Vector2d p = session_.view().to_canvas(p_px);
+    Eigen::Vector2d p = session_.view().to_canvas(p_px);
     require(session_.view().contains(p),
             "({}, {}): must be in the piece of the image that is shown", p_px.x(), p_px.y());
     return p;

@@ -44,14 +44,14 @@ void apply(const Depthwise& c, const cv::Mat& image, cv::Mat& result) {
   cv::parallel_for_(cv::Range(0, channels), [&](const cv::Range& range) {
     Plane plane(c, rows, columns);
     for (int channel = range.start; channel < range.end; ++channel) {
-      const float* from = image.ptr<float>(0, channel);
+      const auto* from = image.ptr<float>(0, channel);
       for (int y = 0; y < rows; ++y)
         std::copy_n(from + y * columns, columns,
                     plane.padded.data() + (y + c.border[0]) * plane.width + c.border[2]);
       convolve(c, c.weights.data() + channel * c.kernel_y * c.kernel_x,
                c.bias[static_cast<std::size_t>(channel)], plane,
                ((rows_out - 1) * c.stride_y + 1) * plane.width);
-      float* to = result.ptr<float>(0, channel);
+      auto* to = result.ptr<float>(0, channel);
       for (int y = 0; y < rows_out; ++y) {
         const float* row = plane.results.data() + y * c.stride_y * plane.width;
         for (int x = 0; x < columns_out; ++x) *to++ = row[x * c.stride_x];

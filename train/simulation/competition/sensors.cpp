@@ -20,7 +20,7 @@ std::vector<std::string> all_names() {
   };
   coordinates(0, 3, ""), coordinates(0, 3, "_u");
   coordinates(3, 9, ""), coordinates(3, 9, "_u");
-  for (const char* name : {"com_x", "com_y", "com_vx", "com_vy"}) all.push_back(name);
+  for (const char* name : {"com_x", "com_y", "com_vx", "com_vy"}) all.emplace_back(name);
   const auto bodies = [&](std::size_t first, std::size_t last, bool positions, bool velocities) {
     for (std::size_t i = first; i < last; ++i) {
       const std::string body = kBodies[i];
@@ -31,7 +31,7 @@ std::vector<std::string> all_names() {
   bodies(0, kBodiesOfTheCompetition, true, false);
   for (const char* name :
        {"strength_psoas_l", "strength_psoas_r", "obstacle_x", "obstacle_y", "obstacle_radius"})
-    all.push_back(name);
+    all.emplace_back(name);
   bodies(0, kBodiesOfTheCompetition, false, true);
   bodies(kBodiesOfTheCompetition, std::size(kBodies), true, true);
   for (const std::string& muscle : simulation::muscle_names())
