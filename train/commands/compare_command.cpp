@@ -16,14 +16,15 @@ void add_compare_command(CLI::App& app) {
                    "Folders with a run for each seed; several are pooled over their experiments")
       ->required();
   command->add_option("--to", options->controls, "The control of each arm, in the same order");
-  command->add_option("--at", options->decisions, "Numbers of decisions, separated by commas")
+  command->add_option("--against", options->against, "decisions, simulated (s), or wall (clock, s)")
+      ->capture_default_str();
+  command->add_option("--at", options->at, "Where on that axis, separated by commas")
       ->delimiter(',')
       ->required();
   command
       ->add_option("--window", options->window,
-                   "Decisions over which evaluations are averaged, up to each number")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+                   "Evaluations so far before it are averaged; 40000 decisions if not given")
+      ->check(CLI::PositiveNumber);
   command->callback([options] { fmt::print("{}", experiments::compare(*options)); });
 }
 

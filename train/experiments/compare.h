@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,16 @@ namespace stride::experiments {
 struct CompareOptions {
   std::vector<std::filesystem::path> arms;      // pooled
   std::vector<std::filesystem::path> controls;  // of each arm, in the same order; or none at all
-  std::vector<double> decisions;                // where the curves are compared
-  double window = 40000;                        // decisions over which evaluations are averaged
+  std::string against = "decisions";            // decisions, simulated (s) or wall (clock, s)
+  std::vector<double> at;                       // where the curves are compared, of `against`
+  std::optional<double> window = {};            // before it, averaged; 40 000 decisions if none
 };
 
-/// A table in Markdown, one row for each number of decisions: the mean distance over all runs and,
+/// A table in Markdown, one row for each of `at`: the mean distance over all runs and,
 /// with controls, the ratio over the pairs of equal seed in all experiments (geometric mean with
 /// Student's 95 % interval). A pair with a distance ≤ 0 has no ratio and is left out; the table
 /// says how many pairs remain. Throws Error if arms and controls differ in number, a folder has no
-/// runs, or a seed is missing on one side.
+/// runs, a seed is missing on one side, `against` is another word, or seconds have no window.
 std::string compare(const CompareOptions& options);
 
 }  // namespace stride::experiments

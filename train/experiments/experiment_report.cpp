@@ -189,14 +189,14 @@ std::string difference_text(const PairedDifference& d, int digits) {
   return fmt::format("{0:.{3}f} ({1:.{3}f} … {2:.{3}f})", d.mean_m, d.low_m, d.high_m, digits);
 }
 
-double distance_at(const Table& curve, double decisions, double window) {
-  const std::size_t x = curve.column("decisions"), y = curve.column("evaluation_distance_m");
+double distance_at(const Table& curve, double at, double window, const std::string& column) {
+  const std::size_t x = curve.column(column), y = curve.column("evaluation_distance_m");
   std::vector<double> values;
   double last = NAN;
   for (const auto& row : curve.rows) {
-    if (row[x] > decisions + 0.1 * window) break;
+    if (row[x] > at + 0.1 * window) break;
     last = row[y];
-    if (row[x] > decisions - 0.9 * window) values.push_back(last);
+    if (row[x] > at - 0.9 * window) values.push_back(last);
   }
   return values.empty() ? last : mean(values);
 }

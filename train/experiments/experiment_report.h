@@ -19,10 +19,11 @@ inline constexpr std::size_t kMilestones = 6;
 /// The share of the budget over which evaluations are averaged.
 inline constexpr double kWindowShare = 0.05;
 
-/// Mean evaluation distance in (decisions − 0.9 window, decisions + 0.1 window], m: an evaluation
+/// Mean evaluation distance in (at − 0.9 window, at + 0.1 window] of a column, m: an evaluation
 /// happens up to a round after its time. Where the window is empty, the last evaluation before it;
 /// NaN if there is none.
-double distance_at(const Table& curve, double decisions, double window);
+double distance_at(const Table& curve, double at, double window,
+                   const std::string& column = "decisions");
 
 /// The first evaluation of a curve that reached a milestone.
 struct Reached {
