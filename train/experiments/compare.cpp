@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "extract/io/error.h"
 #include "extract/io/table.h"
+#include "train/experiments/curve_axis.h"
 #include "train/experiments/experiment_report.h"
 
 namespace stride::experiments {
@@ -27,44 +27,16 @@ std::vector<std::string> seeds_of(const fs::path& arm) {
   return seeds;
 }
 
-/// What curves are compared against.
-struct Axis {
-  const char* name;    // on the command line
-  const char* column;  // of the curve
-  const char* header;  // of the table
-};
-constexpr std::array<Axis, 3> kAxes{{{"decisions", "decisions", "decisions"},
-                                     {"simulated", "simulated_s", "simulated, s"},
-                                     {"wall", "wall_s", "wall clock, s"}}};
-
-const Axis& axis_named(const std::string& name) {
-  const auto* const axis =
-      std::ranges::find_if(kAxes, [&](const Axis& a) { return name == a.name; });
-  require(axis != kAxes.end(), "--against {}: must be decisions, simulated or wall", name);
-  return *axis;
-}
-
-/// Adds timing.csv's column wall_s to the curve; its rows are those of the same evaluations.
-void add_wall_clock(const fs::path& run, Table& curve) {
-  const Table timing = load_table(run / "timing.csv", "timing", 1);
-  const std::size_t wall = timing.column("wall_s");
-  curve.columns.emplace_back("wall_s");
-  curve.rows.resize(std::min(curve.rows.size(), timing.rows.size()));
-  for (std::size_t i = 0; i < curve.rows.size(); ++i) curve.rows[i].push_back(timing.rows[i][wall]);
-}
-
-std::vector<Table> curves_of(const std::vector<fs::path>& arms, const std::string& against) {
+std::vector<Table> curves_of(const std::vector<fs::path>& arms, const CurveAxis& axis) {
   std::vector<Table> curves;
   for (const fs::path& arm : arms)
-    for (const std::string& seed : seeds_of(arm)) {
-      curves.push_back(load_table(arm / seed / "curve.csv", "curve", 1));
-      if (against == "wall") add_wall_clock(arm / seed, curves.back());
-    }
+    for (const std::string& seed : seeds_of(arm))
+      curves.push_back(load_run_curve(arm / seed, axis));
   return curves;
 }
 
 std::vector<double> distances_at(const std::vector<Table>& curves, double at, double window,
-                                 const Axis& axis) {
+                                 const CurveAxis& axis) {
   std::vector<double> distances_m;
   for (const Table& curve : curves)
     distances_m.push_back(distance_at(curve, at, window, axis.column));
@@ -96,13 +68,13 @@ std::string compare(const CompareOptions& options) {
               "{} and {}: must have the same seeds", options.arms[i].string(),
               options.controls[i].string());
   }
-  const Axis& axis = axis_named(options.against);
-  require(options.window || options.against == "decisions",
-          "--against {}: --window is needed, in seconds", options.against);
+  const CurveAxis& axis = curve_axis(options.against);
+  require(options.window || !axis.seconds, "--against {}: --window is needed, in seconds",
+          options.against);
   const double window = options.window.value_or(kWindowDecisions);
-  const std::vector<Table> treated = curves_of(options.arms, options.against),
-                           control = curves_of(options.controls, options.against);
-  std::string text = fmt::format("| {} |", axis.header);
+  const std::vector<Table> treated = curves_of(options.arms, axis),
+                           control = curves_of(options.controls, axis);
+  std::string text = fmt::format("| {}{} |", axis.quantity, axis.seconds ? ", s" : "");
   text += paired ? " control, m | arm, m | pairs | ratio |\n|---|---|---|---|---|\n"
                  : " runs | distance, m |\n|---|---|---|\n";
   for (const double at : options.at) {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <thread>
 
 #include "extract/io/error.h"
@@ -14,6 +13,7 @@
 #include "extract/io/gnuplot.h"
 #include "extract/io/outputs.h"
 #include "extract/io/table.h"
+#include "train/experiments/curve_axis.h"
 #include "train/training/curve.h"
 
 namespace stride::experiments {
@@ -37,24 +37,15 @@ struct Curve {
 };
 
 Curve load_curve(const fs::path& run, const PlotOptions& options) {
-  const Table curve = load_table(run / "curve.csv", "curve", 1);
-  const std::size_t y = curve.column(options.column);
+  const CurveAxis& axis = curve_axis(options.against);
+  const Table curve = load_run_curve(run, axis);
+  const std::size_t x = curve.column(axis.column), y = curve.column(options.column);
   Curve result;
-  const auto add = [&](double x, double value) {
-    if (std::isfinite(value)) result.x.push_back(x), result.y.push_back(value);
-  };
-  if (options.against == "wall") {
-    const Table timing = load_table(run / "timing.csv", "timing", 1);
-    const std::size_t wall = timing.column("wall_s");
-    for (std::size_t i = 0; i < std::min(curve.rows.size(), timing.rows.size()); ++i)
-      add(timing.rows[i][wall] / 3600, curve.rows[i][y]);
-  } else {
-    const bool simulated = options.against == "simulated";
-    require(simulated || options.against == "decisions",
-            "--against {}: must be decisions, simulated or wall", options.against);
-    const std::size_t x = curve.column(simulated ? "simulated_s" : "decisions");
-    for (const auto& row : curve.rows) add(simulated ? row[x] / 3600 : row[x], row[y]);
-  }
+  for (const auto& row : curve.rows)
+    if (std::isfinite(row[y])) {
+      result.x.push_back(axis.seconds ? row[x] / 3600 : row[x]);
+      result.y.push_back(row[y]);
+    }
   require(!result.x.empty(), "{}: no figures of {} yet", run.string(), options.column);
   return result;
 }
@@ -118,14 +109,15 @@ std::string measure_of(const std::vector<Arm>& arms) {
 std::string script_of(const std::vector<Band>& bands, const PlotOptions& options,
                       const std::string& measure) {
   const std::string name = options.out.filename().string();
-  const std::map<std::string, std::string> axes{
-      {"decisions", "decisions"}, {"simulated", "simulated time (h)"}, {"wall", "wall clock (h)"}};
+  const CurveAxis& axis = curve_axis(options.against);
   const bool crowded = bands.size() > 4;
-  const bool decisions = options.against == "decisions";
   double end = 0;
   for (const Band& band : bands) end = std::max(end, band.x.back());
-  const bool millions = decisions && end > 1e6;  // the format's %c would label many tics 1M
+  const bool millions = !axis.seconds && end > 1e6;  // the format's %c would label many tics 1M
   const char* x = millions ? "($1/1e6)" : "1";
+  std::string label = axis.quantity;
+  if (axis.seconds) label += " (h)";
+  if (millions) label += " (millions)";
   std::string lines;
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const char* colour = kLineColours[i % kLineColours.size()];
@@ -145,8 +137,7 @@ std::string script_of(const std::vector<Band>& bands, const PlotOptions& options
       "set autoscale xfix\nset format x '{}'\nset xlabel '{}'\nset ylabel {} noenhanced\n"
       "set title {} noenhanced\n",
       crowded ? "key outside right top Left reverse" : "rmargin 5\nset key left top",
-      decisions && !millions ? "%.0s%c" : "%g",
-      millions ? "decisions (millions)" : axes.at(options.against),
+      axis.seconds || millions ? "%g" : "%.0s%c", label,
       gnuplot_string(options.column == "evaluation_distance_m" ? measure + " (m)" : options.column),
       gnuplot_string(options.title));
   for (const auto& [terminal, extension] :
