@@ -1,5 +1,7 @@
 # Writes OUTPUT, which makes each suite of a GoogleTest program one test of ctest: a process for each test would spend
 # most of its time loading the libraries of OpenCV. With BATCH > 1 so many suites are one test, without the tests LEFT_OUT.
+# LONG_SUITES begin before the others.
+cmake_policy(VERSION 3.25)  # IN_LIST
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "\;" listed "${listed}")
 string(REPLACE "\n" ";" lines "${listed}")
@@ -27,6 +29,9 @@ while(NOT suites STREQUAL "")
     string(APPEND name "${suite} ")
     string(APPEND filter "${suite}.*:")
     math(EXPR cost "${cost} + ${tests_of_${suite}}")
+    if(suite IN_LIST LONG_SUITES)
+      math(EXPR cost "${cost} + 200")
+    endif()
   endforeach()
   string(STRIP "${name}" name)
   if(LEFT_OUT)

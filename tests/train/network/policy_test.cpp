@@ -10,7 +10,7 @@ namespace stride {
 namespace {
 
 const std::vector<std::string> kFeatures{"hip_flexion_r", "hip_flexion_l", "pelvis"};
-const std::vector<std::string> kActions{"push_r", "push_l"};
+const std::vector<std::string> kActionNames{"push_r", "push_l"};
 
 network::Policy<float> small_policy() {
   Random random(3);
@@ -34,9 +34,9 @@ network::Policy<float> small_policy() {
 TEST(PolicyFile, GivesTheSameActions) {
   TemporaryFolder folder;
   const network::Policy<float> policy = small_policy();
-  network::save_policy(policy, kFeatures, kActions, 3, folder / "agent.safetensors");
+  network::save_policy(policy, kFeatures, kActionNames, 3, folder / "agent.safetensors");
   const network::Policy<float> read =
-      network::load_policy<float>(folder / "agent.safetensors", kFeatures, kActions);
+      network::load_policy<float>(folder / "agent.safetensors", kFeatures, kActionNames);
   EXPECT_EQ(read.actor.parameters(), policy.actor.parameters());
   EXPECT_EQ(read.normaliser.mean(), policy.normaliser.mean());
   EXPECT_EQ(read.normaliser.inverse_sd(), policy.normaliser.inverse_sd());
@@ -46,10 +46,10 @@ TEST(PolicyFile, OfASymmetricPolicyMirrorsAfterReadingToo) {
   TemporaryFolder folder;
   const auto file = folder / "agent.safetensors";
   network::Policy<float> policy = small_policy();
-  policy.symmetry = environment::right_leg_ahead(kFeatures, kActions);
-  network::save_policy(policy, kFeatures, kActions, 3, file);
+  policy.symmetry = environment::right_leg_ahead(kFeatures, kActionNames);
+  network::save_policy(policy, kFeatures, kActionNames, 3, file);
   EXPECT_EQ(network::load_tensors(file).meta("version"), "2");
-  const auto read = network::load_policy<float>(file, kFeatures, kActions);
+  const auto read = network::load_policy<float>(file, kFeatures, kActionNames);
   network::Mlp<float>::Workspace work;
   const Eigen::Vector3d right_ahead(0.5, -0.1, 12), left_ahead(-0.1, 0.5, 12);
   const Eigen::VectorXd right = read.act(right_ahead, work), left = read.act(left_ahead, work);
@@ -64,7 +64,7 @@ TEST(PolicyFile, OfASymmetricPolicyMirrorsAfterReadingToo) {
 TEST(PolicyFile, IsWhatItsDescriptionSays) {
   TemporaryFolder folder;
   const network::Policy<float> policy = small_policy();
-  network::save_policy(policy, kFeatures, kActions, 3, folder / "agent.safetensors");
+  network::save_policy(policy, kFeatures, kActionNames, 3, folder / "agent.safetensors");
   const network::Tensors file = network::load_tensors(folder / "agent.safetensors");
   EXPECT_EQ(file.meta("features"), "hip_flexion_r,hip_flexion_l,pelvis");
   EXPECT_EQ(file.meta("action_repeat"), "3");
@@ -97,12 +97,12 @@ TEST(PolicyFile, IsWhatItsDescriptionSays) {
 
 TEST(PolicyFile, OfOtherFeaturesOrAnotherPrecisionIsRefused) {
   TemporaryFolder folder;
-  network::save_policy(small_policy(), kFeatures, kActions, 3, folder / "agent.safetensors");
+  network::save_policy(small_policy(), kFeatures, kActionNames, 3, folder / "agent.safetensors");
   const auto file = folder / "agent.safetensors";
-  EXPECT_ERROR(network::load_policy<float>(file, {"a", "b", "c"}, kActions),
+  EXPECT_ERROR(network::load_policy<float>(file, {"a", "b", "c"}, kActionNames),
                "its features are not those");
   EXPECT_ERROR(network::load_policy<float>(file, kFeatures, {"push"}), "its actions are not those");
-  EXPECT_ERROR(network::load_policy<double>(file, kFeatures, kActions),
+  EXPECT_ERROR(network::load_policy<double>(file, kFeatures, kActionNames),
                "is of type F32, F64 is needed");
 }
 

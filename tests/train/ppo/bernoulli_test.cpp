@@ -8,17 +8,17 @@ namespace stride::ppo {
 namespace {
 
 const Matrix kLogits{{-3.0f, 0.0f, 0.4f}, {1.7f, -0.2f, 30.0f}};
-const Matrix kActions{{0.0f, 1.0f, 1.0f}, {1.0f, 0.0f, 1.0f}};
+const Matrix kTaken{{0.0f, 1.0f, 1.0f}, {1.0f, 0.0f, 1.0f}};
 
 double p(double z) { return 1 / (1 + std::exp(-z)); }
 
 TEST(Bernoulli, LogProbabilityIsTheSumOfLogsOfEachActionsProbability) {
-  const Vector found = log_probability(kLogits, kActions);
+  const Vector found = log_probability(kLogits, kTaken);
   for (int i = 0; i < 3; ++i) {
     double expected = 0;
     for (int k = 0; k < 2; ++k) {
       const double q = p(kLogits(k, i));
-      expected += std::log(kActions(k, i) > 0 ? q : 1 - q);
+      expected += std::log(kTaken(k, i) > 0 ? q : 1 - q);
     }
     EXPECT_NEAR(found[i], expected, 1e-6);
   }
@@ -54,9 +54,9 @@ TEST(Bernoulli, GradientsAreThoseOfFiniteDifferences) {
       Matrix up = kLogits, down = kLogits;
       up(k, i) += h, down(k, i) -= h;
       const float by_log =
-          (log_probability(up, kActions)[i] - log_probability(down, kActions)[i]) / (2 * h);
+          (log_probability(up, kTaken)[i] - log_probability(down, kTaken)[i]) / (2 * h);
       const float by_entropy = (entropy(up)[i] - entropy(down)[i]) / (2 * h);
-      EXPECT_NEAR(log_probability_gradient(kLogits, kActions)(k, i), by_log, 1e-3);
+      EXPECT_NEAR(log_probability_gradient(kLogits, kTaken)(k, i), by_log, 1e-3);
       EXPECT_NEAR(entropy_gradient(kLogits)(k, i), by_entropy, 1e-3);
     }
 }
