@@ -7,6 +7,7 @@
 
 #include "extract/io/error.h"
 #include "extract/skeleton/fourier_series.h"
+#include "extract/skeleton/least_squares.h"
 #include "extract/skeleton/movement.h"
 
 namespace stride {
@@ -48,13 +49,13 @@ Motion stride_of(const CalibratedTrajectory& run, const std::string& foot) {
   const auto n = static_cast<Eigen::Index>(run.samples.size());
   const int harmonics = static_cast<int>(std::clamp<Eigen::Index>(n / 4, 1, 8));
   Eigen::MatrixXd rows(n, 2 * harmonics + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(kPoseNumbers)> values(n, kPoseNumbers);
+  Eigen::MatrixXd values(n, kPoseNumbers);
   for (Eigen::Index i = 0; i < n; ++i) {
     const CalibratedSample& sample = run.samples[static_cast<std::size_t>(i)];
     rows.row(i) = fourier_basis(sample.phase, harmonics).transpose();
     values.row(i) = pose_of(sample, foot).row();
   }
-  const Eigen::MatrixXd curves = rows.completeOrthogonalDecomposition().solve(values);
+  const Eigen::MatrixXd curves = least_squares(rows, values);
   return [curves, harmonics](double phase) {
     return to_pose(fourier_basis(phase, harmonics).transpose() * curves);
   };

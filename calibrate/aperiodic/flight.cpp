@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/least_squares.h"
 #include "extract/skeleton/units.h"
 
 namespace stride::aperiodic {
@@ -118,7 +119,7 @@ void fall(const GroundPath& path, const PassageFit& fit, Flight& flight) {
     rows.row(i) << 1, t, 0.5 * t * t;
     values.row(i) = path.com_px[frames[static_cast<std::size_t>(i)]].transpose();
   }
-  const Eigen::MatrixXd found = rows.colPivHouseholderQr().solve(values);
+  const Eigen::MatrixXd found = least_squares(rows, values);
   flight.velocity_px_s = found.row(1);
   if (!(found(2, 1) < 0)) {
     flight.failure = "the centre of mass does not fall while both feet are off the ground";
@@ -129,7 +130,8 @@ void fall(const GroundPath& path, const PassageFit& fit, Flight& flight) {
   // the legs'; neighbouring frames repeat one another.
   constexpr double kShare = 0.58;
   const double noise_px = kShare * fit.sigma_px * std::sqrt(fit.correlation);
-  const double variance = (rows.transpose() * rows).inverse()(2, 2);
+  const Eigen::Matrix3d normal = rows.transpose() * rows;
+  const double variance = normal.inverse()(2, 2);
   flight.relative_sd = noise_px * std::sqrt(variance) / -found(2, 1);
   flight.ok = true;
 }

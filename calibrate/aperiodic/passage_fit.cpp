@@ -13,6 +13,7 @@
 #include "calibrate/fit/solver/problem.h"
 #include "calibrate/fit/solver/residuals.h"
 #include "extract/io/statistics.h"
+#include "extract/skeleton/least_squares.h"
 #include "extract/skeleton/robust_fit.h"
 #include "extract/skeleton/units.h"
 
@@ -194,7 +195,7 @@ void estimate_covariance(const Problem& problem, PassageFit& fit) {
     const Eigen::MatrixXd w = normal.block(0, i, shared, 2);
     s -= w * v.inverse() * w.transpose();
   }
-  fit.covariance = s.completeOrthogonalDecomposition().pseudoInverse();
+  fit.covariance = pseudo_inverse(s);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/least_squares.h"
 #include "extract/tracking/corrections.h"
 
 namespace stride::annotation {
@@ -145,15 +146,14 @@ std::optional<FloorLine> floor_from_feet(const Trajectory& trajectory, double st
     add_stances(trajectory, has_toes ? toe : ankle, stride_frames, spots);
   }
   if (spots.size() < 2) return std::nullopt;
-  Eigen::MatrixX2d a(spots.size(), 2);
-  Eigen::VectorXd y(spots.size());
+  Eigen::MatrixXd a(spots.size(), 2), y(spots.size(), 1);
   for (std::size_t i = 0; i < spots.size(); ++i) {
     a.row(static_cast<Eigen::Index>(i)) << 1, spots[i].x();
-    y[static_cast<Eigen::Index>(i)] = spots[i].y();
+    y(static_cast<Eigen::Index>(i), 0) = spots[i].y();
   }
   const double left = a.col(1).minCoeff(), right = a.col(1).maxCoeff();
   if (right - left < 0.1 * trajectory.width_px) return std::nullopt;
-  const Eigen::Vector2d line = a.colPivHouseholderQr().solve(y);
+  const Eigen::Vector2d line = least_squares(a, y);
   return FloorLine{{left, line[0] + line[1] * left}, {right, line[0] + line[1] * right}};
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "calibrate/fit/solver/solve.h"
+#include "extract/skeleton/least_squares.h"
 
 namespace stride::fit {
 
@@ -52,7 +53,7 @@ void estimate_covariance(const FitProblem& problem, StrideFit& fit) {
       }
   for (int frame = 0; frame < frames; ++frame)
     if (v[frame].determinant() > 0) s -= w[frame] * v[frame].inverse() * w[frame].transpose();
-  const Eigen::MatrixXd inverse = s.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(s);
   fit.covariance = Eigen::MatrixXd::Zero(offset, offset);
   for (int i = 0; i < shared; ++i)
     for (int j = 0; j < shared; ++j)
