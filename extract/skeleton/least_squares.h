@@ -11,4 +11,7 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 /// Of Moore and Penrose.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
+/// The x of a x = b; `a` is symmetric and positive definite (LLᵀ).
+Eigen::MatrixXd solve_positive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 }  // namespace stride

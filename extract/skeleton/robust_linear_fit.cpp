@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "extract/skeleton/least_squares.h"
 #include "extract/skeleton/robust_fit.h"
 
 namespace stride {
@@ -17,7 +18,7 @@ RobustLinearFit robust_linear_fit(const Eigen::MatrixXd& rows, const Eigen::Matr
     normal.diagonal().array() += kRidge;
     if (alike > 0)
       normal.topLeftCorner<2, 2>() += alike * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
-    fit.coefficients = normal.llt().solve(rows.transpose() * robust.asDiagonal() * signals);
+    fit.coefficients = solve_positive(normal, rows.transpose() * robust.asDiagonal() * signals);
     return (signals - rows * fit.coefficients).rowwise().norm();
   };
   const RobustFit robust =

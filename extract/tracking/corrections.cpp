@@ -1,6 +1,6 @@
 #include "extract/tracking/corrections.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "extract/io/statistics.h"
+#include "extract/skeleton/least_squares.h"
 #include "extract/tracking/limb_lengths.h"
 #include "extract/video/decoded_clip.h"
 
@@ -106,7 +107,7 @@ void teach(BodyPart either, double leg_px, const Trajectory& clicks, const Traje
         covariances(i, j) =
             covariance(at(i), at(j), sd[axis]) + (i == j ? kHand_legs * kHand_legs : 0);
     }
-    weights[axis] = covariances.llt().solve(seen);
+    weights[axis] = solve_positive(covariances, seen);
   }
   for (std::size_t k = 0; k < points.frames.size(); ++k)
     for (const BodyPart part : std::set{either, mirrored(either)}) {

@@ -64,6 +64,13 @@ void derive(Activation activation, const Matrix& y, const Gradient& gradient, Ma
   }
 }
 
+/// What layer i is given.
+template <typename Matrix>
+Eigen::Ref<const Matrix> input_of(std::size_t i, const Eigen::Ref<const Matrix>& input,
+                                  const std::vector<Matrix>& output) {
+  return i == 0 ? input : Eigen::Ref<const Matrix>(output[i - 1]);
+}
+
 }  // namespace
 
 std::string_view name(Activation activation) {
@@ -138,10 +145,7 @@ const typename Mlp<Scalar>::Matrix& Mlp<Scalar>::forward(const Eigen::Ref<const 
                                           layer.inputs);
     Matrix& y = workspace.output[i];
     y.resize(layer.outputs, input.cols());
-    if (i == 0)
-      y.noalias() = weight * input;
-    else
-      y.noalias() = weight * workspace.output[i - 1];
+    y.noalias() = weight * input_of<Matrix>(i, input, workspace.output);
     y.colwise() += parameters_.segment(layer.bias, layer.outputs);
     if (layer.scale >= 0) {
       Matrix& x = workspace.normalised[i];
@@ -195,10 +199,7 @@ void Mlp<Scalar>::backward(const Eigen::Ref<const Matrix>& input,
 
     if (gradient != nullptr) {
       Eigen::Map<Matrix> weight(gradient->data() + layer.weight, layer.outputs, layer.inputs);
-      if (i == 0)
-        weight.noalias() = delta * input.transpose();
-      else
-        weight.noalias() = delta * workspace.output[i - 1].transpose();
+      weight.noalias() = delta * input_of<Matrix>(i, input, workspace.output).transpose();
       gradient->segment(layer.bias, layer.outputs) = delta.rowwise().sum();
     }
     if (i == 0 && !by_input) return;

@@ -31,5 +31,11 @@ TEST(PseudoInverse, FulfilsTheConditionsOfMooreAndPenrose) {
   EXPECT_TRUE((inverse * a).isApprox((inverse * a).transpose(), 1e-12));
 }
 
+TEST(SolvePositive, FulfilsItsEquation) {
+  const Eigen::Matrix3d a = (Eigen::Matrix3d() << 4, 1, 0, 1, 3, -1, 0, -1, 2).finished();
+  const Eigen::MatrixXd b = (Eigen::MatrixXd(3, 2) << 1, 0, 2, -1, 3, 5).finished();
+  EXPECT_TRUE((a * solve_positive(a, b)).isApprox(b, 1e-12));
+}
+
 }  // namespace
 }  // namespace stride
